@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+# glint_settings: what every target of the house is compiled with.
+add_library(glint_settings INTERFACE)
+target_include_directories(glint_settings INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(glint_settings INTERFACE cxx_std_20)
+# Bitwise reproducible floats: no contraction that the source does not spell out as fma.
+target_compile_options(glint_settings INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
+target_compile_options(glint_settings INTERFACE $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra>
+  $<BUILD_INTERFACE:-Wshadow> $<BUILD_INTERFACE:-Wno-psabi>
+  $<$<BOOL:${GLINT_WERROR}>:$<BUILD_INTERFACE:-Werror>>)
+
+# The instruction sets that a kernel's lanes.cpp is built for; each becomes namespace glint::lanes_<isa>.
+set(GLINT_LANES plain)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(GLINT_LANES plain v3 v4)
+  target_compile_definitions(glint_settings INTERFACE $<BUILD_INTERFACE:GLINT_X86_LANES=1>)
+endif()
+set(GLINT_LANES_FLAGS_plain "")
+set(GLINT_LANES_FLAGS_v3 -march=x86-64-v3)
+set(GLINT_LANES_FLAGS_v4 -march=x86-64-v4 -mprefer-vector-width=512)
+
+# glint_kernel(NAME [more sources]): adds kernels/NAME/{serial,tbb,trial}.cpp, and lanes.cpp once per
+# instruction set.
+function(glint_kernel name)
+  set(dir ${PROJECT_SOURCE_DIR}/kernels/${name})
+  set(sources ${dir}/serial.cpp ${dir}/tbb.cpp ${dir}/trial.cpp)
+  foreach(extra IN LISTS ARGN)
+    list(APPEND sources ${dir}/${extra})
+  endforeach()
+  target_sources(glint PRIVATE ${sources})
+  foreach(isa IN LISTS GLINT_LANES)
+    set(object glint_${name}_${isa})
+    add_library(${object} OBJECT ${dir}/lanes.cpp)
+    target_link_libraries(${object} PRIVATE glint_settings)
+    target_compile_definitions(${object} PRIVATE GLINT_LANES=lanes_${isa})
+    # -O3 and no trapping or errno: what lets plain loops become vectors; none of them changes a value.
+    target_compile_options(${object} PRIVATE ${GLINT_LANES_FLAGS_${isa}}
+      -fno-math-errno -fno-trapping-math $<$<CONFIG:Release,RelWithDebInfo>:-O3>)
+    target_sources(glint PRIVATE $<TARGET_OBJECTS:${object}>)
+  endforeach()
+endfunction()

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "glint/kernels/core/frame.hpp"
+#include "glint/kernels/find_points/find_points.hpp"
+
+namespace glint {
+
+/// One step of the input as every tracker sees it. Immutable; the frames are shared, not copied.
+struct Scan {
+  std::int64_t frame = 0;  ///< index from 0
+  double time = 0;         ///< [s]
+  Frame raw;               ///< grey, as delivered (after colour conversion); may be empty
+  Frame whitened;  ///< z = polarity (I - background) / sigma, unit noise; masked pixels are 0
+  double noise_sigma = 1;         ///< median of the noise map [grey levels]
+  std::span<const Point> points;  ///< only if some tracker feeds on points
+};
+
+}  // namespace glint

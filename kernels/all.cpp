@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/kernels/all.hpp"
+
+#include <array>
+
+#include "glint/kernels/cell_weights/cell_weights.hpp"
+#include "glint/kernels/find_points/find_points.hpp"
+#include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
+#include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
+#include "glint/kernels/prepare_frame/prepare_frame.hpp"
+#include "glint/kernels/propagate/propagate.hpp"
+#include "glint/kernels/resample/resample.hpp"
+
+namespace glint {
+
+std::span<const KernelEntry> all_kernels() {
+  static const std::array kAll{
+      KernelEntry{"prepare_frame", &prepare_frame_trials},
+      KernelEntry{PixelLikelihood::name, &PixelLikelihood::trials},
+      KernelEntry{ParticleLikelihood::name, &ParticleLikelihood::trials},
+      KernelEntry{Propagate::name, &Propagate::trials},
+      KernelEntry{Resample::name, &Resample::trials},
+      KernelEntry{CellWeights::name, &CellWeights::trials},
+      KernelEntry{FindPoints::name, &FindPoints::trials},
+  };
+  return kAll;
+}
+
+}  // namespace glint

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <concepts>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "glint/kernels/core/workers.hpp"
+
+namespace glint {
+
+enum class DeviceKind { serial, tbb };
+
+std::string_view name(DeviceKind kind);
+
+/// A kernel: `K::Args` says what it reads and writes, `K::serial` is its reference, `K::tbb` is
+/// fast.
+template <class K>
+concept Kernel = requires(const typename K::Args& args, Workers& workers) {
+  { K::name } -> std::convertible_to<std::string_view>;
+  K::serial(args);
+  K::tbb(args, workers);
+};
+
+/// Where kernels run. A new kind of device is an enumerator, a branch in run(), and a function in
+/// each kernel worth it.
+class Device {
+ public:
+  static Device serial() { return Device(DeviceKind::serial, 1, Isa::plain); }
+  /// `threads` <= 0 means all of the machine's.
+  static Device tbb(int threads = 0, Isa isa = best_isa()) {
+    return Device(DeviceKind::tbb, threads, isa);
+  }
+  /// `kind` is auto, serial or tbb; throws std::invalid_argument that lists them otherwise.
+  static Device named(std::string_view kind, int threads = 0);
+
+  DeviceKind kind() const { return kind_; }
+  Workers& workers() const { return *workers_; }
+  std::string description() const;
+
+  template <Kernel K>
+  void run(const typename K::Args& args) const {
+    if (kind_ == DeviceKind::serial) return K::serial(args);
+    K::tbb(args, *workers_);
+  }
+
+ private:
+  Device(DeviceKind kind, int threads, Isa isa)
+      : kind_(kind), workers_(std::make_shared<Workers>(threads, isa)) {}
+
+  DeviceKind kind_;
+  std::shared_ptr<Workers> workers_;
+};
+
+}  // namespace glint

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "glint/kernels/core/aligned.hpp"
+
+namespace glint {
+
+/// Particles as structure of arrays; all arrays have the same length. Units: [px], [px/s],
+/// [px/s^2], intensity in noise sigmas, weight in expected targets.
+struct Particles {
+  AlignedVector<float> x, y, vx, vy, ax, ay, intensity, weight;
+  AlignedVector<std::uint32_t> mode;   ///< index of the motion model
+  AlignedVector<std::uint32_t> label;  ///< track that the particle belongs to; 0 = none yet
+
+  std::size_t size() const { return x.size(); }
+  void resize(std::size_t n) {
+    for_each_array([n](auto& a) { a.resize(n); });
+  }
+  void reserve(std::size_t n) {
+    for_each_array([n](auto& a) { a.reserve(n); });
+  }
+  template <class F>
+  void for_each_array(F&& f) {
+    f(x), f(y), f(vx), f(vy), f(ax), f(ay), f(intensity), f(weight), f(mode), f(label);
+  }
+};
+
+}  // namespace glint

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "glint/kernels/core/frame.hpp"
+#include "glint/kernels/core/trial.hpp"
+
+namespace glint {
+
+/// Pixels as a source delivers them: interleaved channels of 8 or 16 bits, or float.
+struct RawPixels {
+  std::variant<const std::uint8_t*, const std::uint16_t*, const float*> data;
+  int width = 0, height = 0, channels = 1;  ///< 1 = grey, 3 = BGR, 4 = BGRA
+  std::ptrdiff_t pitch = 0;                 ///< elements (not pixels) from one row to the next
+};
+
+/// Raw pixels to a grey float frame, .2989 R + .587 G + .114 B (P-HPMHT (1)), optionally
+/// reciprocal, 255 / max(I, floor) (P-HPMHT (2) with a floor for dark pixels). NaN and infinite
+/// pixels become NaN.
+struct ToGrey {
+  static constexpr std::string_view name = "to_grey";
+  static constexpr Tolerance tolerance{1e-5, 1e-6};
+  struct Args {
+    RawPixels raw;
+    bool reciprocal = false;
+    float reciprocal_floor = 12;
+    ImageView<float> grey;
+  };
+  static void serial(const Args& args);
+  static void tbb(const Args& args, Workers& workers);
+};
+
+/// The trials of all kernels of this folder.
+std::vector<std::unique_ptr<Trial>> prepare_frame_trials();
+
+}  // namespace glint

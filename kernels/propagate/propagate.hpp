@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "glint/kernels/core/random.hpp"
+#include "glint/kernels/core/trial.hpp"
+
+namespace glint {
+
+enum class Motion : std::uint32_t { constant_velocity, constant_acceleration, coordinated_turn };
+
+/// One motion model of a bank.
+struct MotionMode {
+  Motion motion = Motion::constant_velocity;
+  float turn_rate = 0;  ///< [rad/s], turns only; positive is anticlockwise with y up (AC-CT), that
+                        ///< is clockwise on a screen with y down is negative
+  float noise = 1e-3f;  ///< power spectral density of the driving noise per axis (of acceleration
+                        ///< for CV and CT [px^2/s^3], of jerk for CA [px^2/s^5])
+};
+
+/// Moves particles one step: switches each one's model by a Markov chain, then x' = F x + w, I' = I
+/// + w_I reflected into its range. P-PHD (1), (31), (32), (34).
+struct Propagate {
+  static constexpr std::string_view name = "propagate";
+  /// Of every component, for |x| <= 1e4 px: float arithmetic.
+  static constexpr Tolerance tolerance{2e-3, 1e-6};
+  static constexpr std::size_t kMaxModes = 8;
+
+  struct Args {
+    std::span<float> x, y, vx, vy, intensity;  ///< in place
+    std::span<float> ax, ay;                   ///< in place; may be empty if no mode is CA
+    std::span<std::uint32_t> mode;             ///< in place; may be empty if there is one mode
+    std::span<const MotionMode> modes;
+    std::span<const float>
+        switching;              ///< modes x modes, row = from; rows sum to 1; empty if one mode
+    float step = 1;             ///< [s]
+    float intensity_noise = 0;  ///< power spectral density q_i [sigma^2/s]
+    float intensity_low = 0, intensity_high = 1;
+    std::span<const float> noise_scale = {};  ///< per particle, multiplies the noise's standard
+                                              ///< deviation; empty means 1. P-PHD (21)
+    std::uint64_t seed = 0;
+    std::uint32_t frame = 0;
+  };
+  static void serial(const Args& args);
+  static void tbb(const Args& args, Workers& workers);
+  static std::vector<std::unique_ptr<Trial>> trials();
+};
+
+}  // namespace glint

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "glint/kernels/core/random.hpp"
+#include "glint/kernels/core/trial.hpp"
+
+namespace glint {
+
+enum class Resampling { systematic, residual };
+
+/// An array of 4-byte elements that moves with its particles: destination[j] =
+/// source[ancestors[j]].
+struct MovedArray {
+  const void* source;
+  void* destination;
+};
+
+/// Draws ancestors in proportion to weights. Weights are first rounded to whole numbers of at most
+/// 2^28 (fewer above 2^24 particles), so that all sums are exact in double in any order and the
+/// ancestors are the same on every device. Ancestors ascend. Negative and NaN weights count 0; if
+/// all are 0 the weights count as equal.
+struct Resample {
+  static constexpr std::string_view name = "resample";
+  static constexpr Tolerance tolerance{};  // equal
+
+  struct Args {
+    std::span<const float> weights;
+    std::span<std::uint32_t> ancestors;  ///< written; its length is the number of offspring
+    Resampling method = Resampling::systematic;
+    RandomKey key = {};
+    std::span<const MovedArray> moved = {};  ///< gathered by the ancestors in the same pass
+  };
+  static void serial(const Args& args);
+  static void tbb(const Args& args, Workers& workers);
+  static std::vector<std::unique_ptr<Trial>> trials();
+};
+
+}  // namespace glint
