@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "glint/kernels/birth_scores/birth_scores.hpp"
 #include "glint/kernels/cell_weights/cell_weights.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
@@ -22,6 +23,7 @@ std::span<const KernelEntry> all_kernels() {
       KernelEntry{Resample::name, &Resample::trials},
       KernelEntry{CellWeights::name, &CellWeights::trials},
       KernelEntry{FindPoints::name, &FindPoints::trials},
+      KernelEntry{BirthScores::name, &BirthScores::trials},
   };
   return kAll;
 }

@@ -20,6 +20,8 @@ enum class Purpose : std::uint32_t {
   scenario = 8,
   clutter = 9,
   trial = 10,
+  birth_jitter = 11,
+  kmeans = 12,
 };
 
 /// Address of a stream of draws; the item (particle, pixel, ...) and the draw index complete it.
