@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glint/kernels/core/workers.hpp"
+
+namespace glint {
+
+/// Where a figure must lie; an end that is missing is open.
+struct Band {
+  std::optional<double> low, high;
+  bool holds(double value) const {  // NaN lies in no band
+    return value == value && !(low && value < *low) && !(high && value > *high);
+  }
+};
+
+/// One figure of an experiment.
+struct ExperimentRow {
+  std::string name, metric;     ///< tracker or condition; what was measured
+  double ours = 0, spread = 0;  ///< mean and standard deviation over runs
+  std::optional<double> paper;  ///< what the paper prints
+  std::optional<Band> band;     ///< what a right implementation attains
+  std::optional<bool> inside() const {
+    return band ? std::optional(band->holds(ours)) : std::nullopt;
+  }
+};
+
+/// One value over frames, mean over runs.
+struct Curve {
+  std::string condition, metric;
+  std::vector<double> frame, value;
+};
+
+struct ExperimentResult {
+  std::string name;
+  int runs = 0;
+  std::uint64_t seed = 0;
+  std::vector<ExperimentRow> rows;
+  std::vector<Curve> curves;
+};
+
+struct ExperimentOptions {
+  int runs = 0;  ///< 0 = the experiment's own number
+  std::uint64_t seed = 1;
+  /// Called with runs done and runs in all, from any thread, one call at a time.
+  std::function<void(int done, int total)> progress;
+};
+
+/// How an experiment is found by name and run. The result depends on runs and seed alone, never on
+/// the number of workers.
+struct ExperimentEntry {
+  std::string_view name, summary;
+  int runs;  ///< that the bands hold for
+  ExperimentResult (*run)(const ExperimentOptions& options, Workers& workers);
+};
+
+/// The one list of experiments.
+std::span<const ExperimentEntry> all_experiments();
+/// Throws ConfigError that lists the names if there is no such experiment.
+const ExperimentEntry& find_experiment(std::string_view name);
+
+/// False if a band is missed.
+bool bands_hold(const ExperimentResult& result);
+
+/// Mean and standard deviation over runs, NaN left out; both NaN if nothing is left.
+struct Summary {
+  double mean = 0, spread = 0;
+};
+Summary summarise(std::span<const double> values);
+
+}  // namespace glint

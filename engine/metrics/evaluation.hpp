@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "glint/engine/metrics/metrics.hpp"
+#include "glint/engine/tracks.hpp"
+#include "glint/engine/truth.hpp"
+
+namespace glint {
+
+struct EvaluationOptions {
+  double cutoff = 5;               ///< [px]
+  double order = 2;                ///< of OSPA and GOSPA
+  bool include_tentative = false;  ///< score tentative points like confirmed ones
+  /// Scored are frames 0 to frames - 1; without it, up to the last frame that is mentioned.
+  std::optional<std::int64_t> frames;
+};
+
+/// What became of one truth. NaN where undefined.
+struct TruthScore {
+  std::int64_t first = 0, last = 0;  ///< frames
+  double rmse;                       ///< [px] of the matched points
+  /// Frames from birth to the first matched point; NaN if never detected.
+  double detect_delay;
+  /// Frames from the last truth to the end of the last track that counts for it, negative if that
+  /// stopped early; NaN without such a track, or if the truth lasts to the end of the sequence.
+  double halt_delay;
+  int identities = 0;     ///< different tracks among the matched points
+  bool detected = false;  ///< some track counts for it
+};
+
+/// How well tracks follow truths. Matched = assigned within the cut-off at a frame. A track counts
+/// for the truth that is within the cut-off of most of its points, if these are at least half.
+struct Evaluation {
+  std::vector<Ospa> ospa;    ///< one a frame
+  std::vector<Gospa> gospa;  ///< one a frame
+  Ospa mean_ospa;            ///< over frames, of distance and of each part
+  Gospa mean_gospa;
+  double mean_cardinality_error = 0;  ///< estimates - truths, over frames
+  std::map<std::int64_t, TruthScore> truths;
+  int tracks = 0, false_tracks = 0;
+  int detected_truths = 0;
+  double track_detection_probability;  ///< detected truths / truths
+  double identities_per_truth;         ///< over truths matched at least once
+  double detected_points;              ///< matched truth points / truth points
+  double false_points_per_frame;       ///< points that are not matched
+};
+Evaluation evaluate(std::span<const TruthPoint> truth, std::span<const TrackPoint> tracks,
+                    const EvaluationOptions& options = {});
+
+/// A point of a single-frame detector.
+struct Detection {
+  std::int64_t frame = 0;
+  double x = 0, y = 0;   ///< [px]
+  double amplitude = 0;  ///< what the detector puts a threshold on
+};
+
+/// What a single-frame detector attains at its best fair threshold.
+struct Baseline {
+  double threshold;  ///< lowest amplitude kept; NaN if there are no detections
+  double detected_points;
+  double false_points_per_frame;
+};
+/// The lowest threshold whose false points per frame do not exceed `false_points_per_frame`.
+Baseline detector_baseline(std::span<const TruthPoint> truth, std::span<const Detection> detections,
+                           double false_points_per_frame, const EvaluationOptions& options = {});
+
+}  // namespace glint
