@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -42,13 +43,16 @@ class FieldList {
 /// A value as a file or a command line gives it.
 using ConfigValue = std::variant<bool, std::int64_t, double, std::string>;
 
-/// Sets a field. Integers are taken for floating-point fields. Throws ConfigError ("birth_particles
-/// must be in [1, 1e7], got 0") for a wrong type, range or choice.
+/// Sets a field. Integers are taken for floating-point fields, and whole floating-point numbers
+/// (1e5) for integers. Throws ConfigError ("birth_particles must be in [1, 1e7], got 0") for a
+/// wrong type, range or choice; the field keeps its value then.
 void assign(ConfigField& field, const ConfigValue& value);
 /// Reads `text` as the field's type and sets it (for --set).
 void assign_text(ConfigField& field, const std::string& text);
-/// The field's present value as TOML.
+/// The field's present value as TOML; reads back as exactly the same value.
 std::string to_toml(const ConfigField& field);
+/// What the field takes: "[1, 1e7]", "bright, dark or both", "true or false"; empty for any text.
+std::string allowed(const ConfigField& field);
 
 /// A named section of settings ("frames", "trackers.smc-phd") that owns its struct.
 class ConfigSection {

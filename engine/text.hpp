@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace glint {
+
+/// The shortest text that reads back as `x`, with exponents as people write them: 1e7, not 1e+07;
+/// "nan" for every NaN. Does not depend on the locale.
+std::string number_text(double x);
+/// Appends number_text(x).
+void append_number(std::string& out, double x);
+/// `text` as a TOML basic string, quotes included.
+std::string quoted(std::string_view text);
+
+}  // namespace glint
