@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/scenario/scenes.hpp"
+
+#include <array>
+#include <string>
+
+namespace glint {
+namespace {
+
+template <class C>
+constexpr SceneEntry entry(std::string_view summary) {
+  return {C::kName, summary, [] { return ConfigSection::of<C>("scenes." + std::string(C::kName)); },
+          [](const ConfigSection& section) { return make_scene(section.as<C>()); }};
+}
+
+constexpr std::array kScenes{
+    entry<PhdScene>("one dim target in white noise: P-PHD section 5.1"),
+    entry<IrClipScene>("infrared-like clip, six dim targets over clouds and ground"),
+    entry<CrossingScene>("two targets that cross"),
+    entry<NoiseScene>("white noise alone"),
+};
+
+}  // namespace
+
+void describe(FieldList& list, PhdScene& config) {
+  list("snr", config.snr, -20, 40, "dB", "peak of the target's image above the noise");
+  list("jitter", config.jitter, 0, 5, "px", "sd of the image about the target, anew each frame");
+  list("frames", config.frames, 1, 100000, "", "length of the sequence");
+}
+
+Scene make_scene(const PhdScene& config) {
+  Scene scene;
+  scene.name = PhdScene::kName;
+  scene.width = scene.height = 40;
+  scene.frames = config.frames;
+  scene.point_spread = PointSpread::of(0.7);
+  scene.jitter_sigma = config.jitter;
+  const double intensity = scene.point_spread.intensity_of_snr(config.snr);  // P-PHD (37)
+  scene.targets = {{4, 24, intensity, fly({5 - 0.5, 5 - 0.5, 0.9, 0.2})}};
+  return scene;
+}
+
+void describe(FieldList& list, NoiseScene& config) {
+  list("width", config.width, 1, 32768, "px", "width of a frame");
+  list("height", config.height, 1, 32768, "px", "height of a frame");
+  list("frames", config.frames, 1, 1000000, "", "length of the sequence");
+  list("noise", config.noise, 0, 1e6, "", "sd of the noise");
+}
+
+Scene make_scene(const NoiseScene& config) {
+  Scene scene;
+  scene.name = NoiseScene::kName;
+  scene.width = config.width;
+  scene.height = config.height;
+  scene.frames = config.frames;
+  scene.noise_sigma = config.noise;
+  return scene;
+}
+
+void describe(FieldList& list, CrossingScene& config) {
+  list("snr", config.snr, -20, 40, "dB", "peak of a target's image above the noise");
+  list("frames", config.frames, 2, 1000, "", "length of the sequence");
+}
+
+Scene make_scene(const CrossingScene& config) {
+  Scene scene;
+  scene.name = CrossingScene::kName;
+  scene.width = scene.height = 64;
+  scene.frames = config.frames;
+  const double intensity = scene.point_spread.intensity_of_snr(config.snr);
+  const double speed = 48.0 / (config.frames - 1);
+  scene.targets = {{0, config.frames, intensity, fly({8, 20, speed, speed / 2})},
+                   {0, config.frames, intensity, fly({8, 44, speed, -speed / 2})}};
+  return scene;
+}
+
+std::span<const SceneEntry> all_scenes() { return kScenes; }
+
+const SceneEntry& find_scene(std::string_view name) {
+  std::string known;
+  for (const SceneEntry& scene : kScenes) {
+    if (scene.name == name) return scene;
+    known += (known.empty() ? "" : ", ") + std::string(scene.name);
+  }
+  throw ConfigError("there is no scene '" + std::string(name) + "'; choose one of " + known);
+}
+
+}  // namespace glint

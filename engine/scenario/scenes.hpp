@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "glint/engine/scenario/scenario.hpp"
+
+namespace glint {
+
+/// P-PHD section 5.1: one dim target at constant velocity in white noise, alive in the paper's
+/// frames 5 to 24; before and after the frames are empty.
+struct PhdScene {
+  static constexpr std::string_view kName = "phd-5.1";
+  double snr = 10;  ///< [dB]
+  double jitter = 0.5;
+  int frames = 30;
+};
+void describe(FieldList& list, PhdScene& config);
+Scene make_scene(const PhdScene& config);
+
+/// An infrared-like clip after P-PMHT section 4: point targets on B-spline paths above a skyline,
+/// in grey levels.
+struct IrClipScene {
+  static constexpr std::string_view kName = "ir-clip";
+  int frames = 120;
+  double noise = 5;                   ///< [grey levels]
+  double snr_low = 8, snr_high = 12;  ///< [dB], spread over the targets
+  double speed = 2;                   ///< [px/frame], mean
+  double sigma = 0.8;                 ///< of the point spread [px]
+};
+void describe(FieldList& list, IrClipScene& config);
+Scene make_scene(const IrClipScene& config);
+
+/// White noise and nothing else.
+struct NoiseScene {
+  static constexpr std::string_view kName = "noise";
+  int width = 40, height = 40, frames = 30;
+  double noise = 1;
+};
+void describe(FieldList& list, NoiseScene& config);
+Scene make_scene(const NoiseScene& config);
+
+/// Two targets whose straight paths cross half way.
+struct CrossingScene {
+  static constexpr std::string_view kName = "crossing";
+  double snr = 14;  ///< [dB]
+  int frames = 40;
+};
+void describe(FieldList& list, CrossingScene& config);
+Scene make_scene(const CrossingScene& config);
+
+}  // namespace glint
