@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/filters/births.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "glint/kernels/birth_scores/birth_scores.hpp"
+#include "glint/kernels/core/tiles.hpp"
+#include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
+#include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
+#include "glint/kernels/resample/resample.hpp"
+
+namespace glint {
+namespace {
+
+constexpr std::size_t kBirthTile = 512;
+
+/// Sum of row sums, in row order: the same for any number of threads.
+double ordered_sum(const AlignedVector<float>& values, int width, int height,
+                   const Device& device) {
+  std::vector<double> rows(static_cast<std::size_t>(height));
+  device.workers().for_tiles(rows.size(), [&](std::size_t y) {
+    const float* row = values.data() + y * static_cast<std::size_t>(width);
+    rows[y] = std::accumulate(row, row + width, 0.0);
+  });
+  return std::accumulate(rows.begin(), rows.end(), 0.0);
+}
+
+/// Pixels whose 3x3 neighbourhood reaches the threshold, as flat indices.
+void cells_near(FrameView z, double threshold, std::vector<std::uint32_t>& cells) {
+  cells.clear();
+  for (int y = 0; y < z.height; ++y) {
+    for (int x = 0; x < z.width; ++x) {
+      bool above = false;
+      for (int j = std::max(0, y - 1); j <= std::min(z.height - 1, y + 1) && !above; ++j) {
+        for (int i = std::max(0, x - 1); i <= std::min(z.width - 1, x + 1); ++i) {
+          above = above || z(i, j) >= threshold;
+        }
+      }
+      if (above) cells.push_back(static_cast<std::uint32_t>(y * z.width + x));
+    }
+  }
+}
+
+/// M summed over the window around a pixel that need not hold a particle.
+double window_sum(const CellWorkspace& cells, int width, int height, int half_width, int x, int y) {
+  const auto& cell = cells.runs.cell;
+  double sum = 0;
+  for (int j = std::max(0, y - half_width); j <= std::min(height - 1, y + half_width); ++j) {
+    const auto first = static_cast<std::uint32_t>(j * width + std::max(0, x - half_width));
+    const auto last = static_cast<std::uint32_t>(j * width + std::min(width - 1, x + half_width));
+    auto r =
+        static_cast<std::size_t>(std::lower_bound(cell.begin(), cell.end(), first) - cell.begin());
+    for (; r < cell.size() && cell[r] <= last; ++r) sum += cells.cell_sum[r];
+  }
+  return sum;
+}
+
+struct PickedCell {
+  int x, y;
+  double total;  ///< of the scores in reach
+  float score;   ///< of the picked cell
+};
+
+/// Draws a cell within `reach` of (x, y) in proportion to its score; `u` is uniform in (0, 1).
+PickedCell pick_in_reach(const AlignedVector<float>& score, int width, int height, int x, int y,
+                         int reach, double u) {
+  const int x0 = std::max(0, x - reach), x1 = std::min(width - 1, x + reach);
+  const int y0 = std::max(0, y - reach), y1 = std::min(height - 1, y + reach);
+  const auto row_sum = [&](int j) {
+    const float* row = score.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(width);
+    return std::accumulate(row + x0, row + x1 + 1, 0.0);
+  };
+  double total = 0;
+  for (int j = y0; j <= y1; ++j) total += row_sum(j);
+  double left = u * total;
+  int j = y0;
+  for (double s = row_sum(j); j < y1 && left >= s; s = row_sum(j)) left -= s, ++j;
+  const float* row = score.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(width);
+  int i = x0;
+  for (; i < x1 && left >= row[i]; ++i) left -= row[i];
+  return {i, j, total, row[i]};
+}
+
+}  // namespace
+
+Births::Births(const BirthConfig& config, const MotionBank& bank, const PointSpread& spread,
+               const Device& device, std::uint64_t seed)
+    : config_(config), bank_(bank), spread_(spread), device_(device), seed_(seed) {
+  cells_.reserve(static_cast<std::size_t>(config.count));
+}
+
+std::uint32_t Births::draw_mode(std::uint32_t word) const {
+  float u = uniform(word);
+  std::uint32_t mode = 0;
+  while (mode + 1 < bank_.birth.size() && u >= bank_.birth[mode]) u -= bank_.birth[mode++];
+  return mode;
+}
+
+float Births::draw_intensity(std::uint32_t word) const {
+  // Uniform in decibels: dim targets get as many particles as bright ones.
+  const double ratio = config_.intensity_high / config_.intensity_low;
+  return static_cast<float>(config_.intensity_low * std::pow(ratio, uniform(word)));
+}
+
+void Births::look_at(const Frame& z) {
+  const FrameView view = z.view();
+  std::swap(now_, before_);
+  now_.whitened = z;
+  now_.score.resize(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
+  if (map_.width() != view.width || map_.height() != view.height) {
+    map_ = Image<float>(view.width, view.height);
+  }
+  const auto intensity =
+      static_cast<float>(std::sqrt(config_.intensity_low * config_.intensity_high));
+  device_.run<PixelLikelihood>(
+      {.frame = view, .spread = spread_, .intensity = intensity, .map = map_.view()});
+  double energy = 0;
+  for (const double w : spread_.centred_weights()) energy += w * w;
+  device_.run<BirthScores>({.map = map_.view(),
+                            .intensity = intensity,
+                            .energy = static_cast<float>(energy * energy),
+                            .intensity_low = static_cast<float>(config_.intensity_low),
+                            .intensity_high = static_cast<float>(config_.intensity_high),
+                            .score = {now_.score.data(), view.width, view.height, view.width}});
+  now_.total = ordered_sum(now_.score, view.width, view.height, device_);
+}
+
+std::size_t Births::draw(const Frame& z, std::int64_t frame, double step,
+                         const CellWorkspace& previous, double clutter, Particles& particles,
+                         std::size_t at) {
+  if (config_.proposal == BirthProposal::uniform) {
+    now_.whitened = z;
+    return draw_uniform(frame, particles, at);
+  }
+  look_at(z);
+  if (now_.total <= 0) return 0;
+  if (config_.proposal == BirthProposal::matched_filter) return draw_matched(frame, particles, at);
+  const bool first =
+      before_.whitened.width() != z.width() || before_.whitened.height() != z.height();
+  return first ? 0 : draw_two_frame(frame, step, previous, clutter, particles, at);
+}
+
+std::size_t Births::draw_uniform(std::int64_t frame, Particles& p, std::size_t at) {
+  const FrameView z = now_.whitened.view();
+  cells_near(z, config_.threshold, cells_);
+  if (cells_.empty()) return 0;
+  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth);
+  const auto count = static_cast<std::size_t>(config_.count);
+  const auto speed = static_cast<float>(config_.speed_max);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 0);
+    const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 1);
+    const auto pick = static_cast<std::size_t>(uniform(a.w[0]) * static_cast<float>(cells_.size()));
+    const auto cell = static_cast<int>(cells_[std::min(pick, cells_.size() - 1)]);
+    const std::size_t to = at + i;
+    p.x[to] = static_cast<float>(cell % z.width) + uniform(a.w[1]) - 0.5f;
+    p.y[to] = static_cast<float>(cell / z.width) + uniform(a.w[2]) - 0.5f;
+    p.vx[to] = speed * (2 * uniform(b.w[0]) - 1);
+    p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
+    p.intensity[to] = draw_intensity(b.w[2]);
+    p.mode[to] = draw_mode(b.w[3]);
+    p.weight[to] = static_cast<float>(config_.mass / config_.count);  // P-PHD (30)
+  }
+  return count;
+}
+
+std::size_t Births::draw_matched(std::int64_t frame, Particles& p, std::size_t at) {
+  const int width = now_.whitened.width(), height = now_.whitened.height();
+  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth);
+  const auto count = static_cast<std::size_t>(config_.count);
+  const auto speed = static_cast<float>(config_.speed_max);
+  cells_.resize(count);
+  device_.run<Resample>({.weights = now_.score, .ancestors = cells_, .key = key});
+  const double mean = now_.total / (static_cast<double>(width) * height);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
+    const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 2);
+    const auto cell = static_cast<int>(cells_[i]);
+    const std::size_t to = at + i;
+    p.x[to] = static_cast<float>(cell % width) + uniform(a.w[0]) - 0.5f;
+    p.y[to] = static_cast<float>(cell / width) + uniform(a.w[1]) - 0.5f;
+    p.vx[to] = speed * (2 * uniform(b.w[0]) - 1);
+    p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
+    p.intensity[to] = draw_intensity(b.w[2]);
+    p.mode[to] = draw_mode(b.w[3]);
+    p.weight[to] = static_cast<float>(config_.mass / config_.count * mean / now_.score[cells_[i]]);
+  }
+  return count;
+}
+
+std::size_t Births::draw_two_frame(std::int64_t frame, double step, const CellWorkspace& previous,
+                                   double clutter, Particles& p, std::size_t at) {
+  const int width = now_.whitened.width(), height = now_.whitened.height();
+  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth);
+  const auto count = static_cast<std::size_t>(config_.count);
+  const int reach = static_cast<int>(std::ceil(config_.speed_max * step));
+  for (auto* v : {&x_before_, &y_before_, &log_ratio_}) v->resize(count);
+  cells_.resize(count);
+  device_.run<Resample>({.weights = before_.score, .ancestors = cells_, .key = key});
+
+  const double mean = before_.total / (static_cast<double>(width) * height);
+  const double area = 4 * config_.speed_max * step * config_.speed_max * step;
+  const Tiles tiles{count, kBirthTile};
+  device_.workers().for_tiles(tiles.tiles(), [&](std::size_t tile) {
+    for (std::size_t i = tiles.begin(tile); i < tiles.end(tile); ++i) {
+      const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
+      const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 2);
+      const auto cell = static_cast<int>(cells_[i]);
+      const int cx = cell % width, cy = cell / width;
+      const auto next = pick_in_reach(now_.score, width, height, cx, cy, reach, uniform(a.w[2]));
+      const std::size_t to = at + i;
+      x_before_[i] = static_cast<float>(cx) + uniform(a.w[0]) - 0.5f;
+      y_before_[i] = static_cast<float>(cy) + uniform(a.w[1]) - 0.5f;
+      p.x[to] = static_cast<float>(next.x) + uniform(b.w[0]) - 0.5f;
+      p.y[to] = static_cast<float>(next.y) + uniform(b.w[1]) - 0.5f;
+      p.vx[to] = static_cast<float>((p.x[to] - x_before_[i]) / step);
+      p.vy[to] = static_cast<float>((p.y[to] - y_before_[i]) / step);
+      p.intensity[to] = draw_intensity(b.w[2]);
+      p.mode[to] = draw_mode(b.w[3]);
+      // The share of this cell that living targets already explain is no birth: 1 / (clutter + B).
+      const double explained =
+          clutter + window_sum(previous, width, height, spread_.half_width, cx, cy);
+      const bool possible =
+          std::abs(p.vx[to]) <= config_.speed_max && std::abs(p.vy[to]) <= config_.speed_max;
+      const double weight = config_.mass / config_.count * mean / before_.score[cells_[i]] *
+                            next.total / (area * next.score) / explained;
+      p.weight[to] = possible ? static_cast<float>(weight) : 0.0f;
+    }
+  });
+  device_.run<ParticleLikelihood>(
+      {.frame = before_.whitened.view(),
+       .spread = spread_,
+       .x = x_before_,
+       .y = y_before_,
+       .intensity = std::span(p.intensity).subspan(at, count),
+       .log_ratio = log_ratio_,
+       .jitter = static_cast<float>(config_.jitter),
+       .key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth_jitter)});
+  for (std::size_t i = 0; i < count; ++i) p.weight[at + i] *= math::exp(log_ratio_[i]);
+  return count;
+}
+
+}  // namespace glint

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "glint/engine/models/motion_bank.hpp"
+#include "glint/kernels/cell_weights/cell_weights.hpp"
+#include "glint/kernels/core/device.hpp"
+#include "glint/kernels/core/frame.hpp"
+#include "glint/kernels/core/particles.hpp"
+#include "glint/kernels/core/point_spread.hpp"
+
+namespace glint {
+
+/// Where new-born particles come from.
+enum class BirthProposal {
+  uniform,         ///< cells near a pixel above a threshold. P-PHD section 5.1
+  matched_filter,  ///< cells in proportion to their birth score, importance weights
+  two_frame        ///< a pair of cells in two successive frames: position and velocity at once
+};
+
+struct BirthConfig {
+  BirthProposal proposal = BirthProposal::two_frame;
+  int count = 4000;                              ///< particles a frame, J
+  double mass = 0.05;                            ///< expected new-born targets a frame, gamma
+  double threshold = 1.5;                        ///< of the uniform proposal [noise sigmas]
+  double speed_max = 4;                          ///< largest speed along each axis [px/s]
+  double intensity_low = 1, intensity_high = 1;  ///< [noise sigmas], whole target
+  double jitter = 0;                             ///< of the sensor [px]
+};
+
+/// One frame as births see it, kept until the next.
+struct BirthFrame {
+  Frame whitened;
+  AlignedVector<float> score;  ///< row by row, without padding
+  double total = 0;            ///< sum of the scores
+};
+
+/// Draws new-born particles with their weights; their position is the one at the present frame.
+class Births {
+ public:
+  Births(const BirthConfig& config, const MotionBank& bank, const PointSpread& spread,
+         const Device& device, std::uint64_t seed);
+
+  /// Writes `config.count` particles to `particles` from index `at` on (already resized), for the
+  /// frame `z`; `previous` is the cell map of the update of the frame before, of the same size.
+  /// Returns how many were written: fewer only if there is nothing to draw from (no frame before,
+  /// no cell above the threshold). `step` is the time since the frame before [s].
+  std::size_t draw(const Frame& z, std::int64_t frame, double step, const CellWorkspace& previous,
+                   double clutter, Particles& particles, std::size_t at);
+
+ private:
+  void look_at(const Frame& z);
+  std::size_t draw_uniform(std::int64_t frame, Particles& p, std::size_t at);
+  std::size_t draw_matched(std::int64_t frame, Particles& p, std::size_t at);
+  std::size_t draw_two_frame(std::int64_t frame, double step, const CellWorkspace& previous,
+                             double clutter, Particles& p, std::size_t at);
+  std::uint32_t draw_mode(std::uint32_t word) const;
+  float draw_intensity(std::uint32_t word) const;
+
+  BirthConfig config_;
+  MotionBank bank_;
+  PointSpread spread_;
+  Device device_;
+  std::uint64_t seed_;
+  BirthFrame now_, before_;
+  Image<float> map_;
+  std::vector<std::uint32_t> cells_;
+  AlignedVector<float> x_before_, y_before_, log_ratio_;
+};
+
+}  // namespace glint
