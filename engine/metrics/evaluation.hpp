@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -11,6 +12,8 @@
 #include "glint/engine/truth.hpp"
 
 namespace glint {
+
+inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 struct EvaluationOptions {
   double cutoff = 5;               ///< [px]
@@ -23,18 +26,19 @@ struct EvaluationOptions {
 /// What became of one truth. NaN where undefined.
 struct TruthScore {
   std::int64_t first = 0, last = 0;  ///< frames
-  double rmse;                       ///< [px] of the matched points
-  /// Frames from birth to the first matched point; NaN if never detected.
-  double detect_delay;
+  double rmse = kUndefined;          ///< [px] of the matched points
+  /// Frames from birth to the first matched point; NaN if there is none.
+  double detect_delay = kUndefined;
   /// Frames from the last truth to the end of the last track that counts for it, negative if that
   /// stopped early; NaN without such a track, or if the truth lasts to the end of the sequence.
-  double halt_delay;
+  double halt_delay = kUndefined;
   int identities = 0;     ///< different tracks among the matched points
   bool detected = false;  ///< some track counts for it
 };
 
 /// How well tracks follow truths. Matched = assigned within the cut-off at a frame. A track counts
 /// for the truth that is within the cut-off of most of its points, if these are at least half.
+/// Scored are confirmed points (and tentative ones if asked for), never halted ones.
 struct Evaluation {
   std::vector<Ospa> ospa;    ///< one a frame
   std::vector<Gospa> gospa;  ///< one a frame
@@ -44,10 +48,10 @@ struct Evaluation {
   std::map<std::int64_t, TruthScore> truths;
   int tracks = 0, false_tracks = 0;
   int detected_truths = 0;
-  double track_detection_probability;  ///< detected truths / truths
-  double identities_per_truth;         ///< over truths matched at least once
-  double detected_points;              ///< matched truth points / truth points
-  double false_points_per_frame;       ///< points that are not matched
+  double track_detection_probability = kUndefined;  ///< detected truths / truths
+  double identities_per_truth = kUndefined;         ///< over truths matched at least once
+  double detected_points = kUndefined;              ///< matched truth points / truth points
+  double false_points_per_frame = kUndefined;       ///< points that are not matched
 };
 Evaluation evaluate(std::span<const TruthPoint> truth, std::span<const TrackPoint> tracks,
                     const EvaluationOptions& options = {});
@@ -61,11 +65,12 @@ struct Detection {
 
 /// What a single-frame detector attains at its best fair threshold.
 struct Baseline {
-  double threshold;  ///< lowest amplitude kept; NaN if there are no detections
-  double detected_points;
-  double false_points_per_frame;
+  double threshold = kUndefined;  ///< lowest amplitude kept; NaN if there are no detections
+  double detected_points = kUndefined;
+  double false_points_per_frame = kUndefined;
 };
-/// The lowest threshold whose false points per frame do not exceed `false_points_per_frame`.
+/// The matched-filter baseline, fair at equal false points: the lowest threshold whose false points
+/// per frame do not exceed `false_points_per_frame`.
 Baseline detector_baseline(std::span<const TruthPoint> truth, std::span<const Detection> detections,
                            double false_points_per_frame, const EvaluationOptions& options = {});
 

@@ -39,42 +39,61 @@ std::vector<ControlPoint> control_points(const Script& script) {
   return points;
 }
 
-/// Smooth noise: normals on a lattice of `cell` pixels, joined by cubic steps.
-double value_noise(double x, double y, double cell, std::uint64_t octave) {
-  const RandomKey key = random_key(octave, 0, Purpose::scenario);
-  const auto at = [&](double i, double j) {
-    const auto item = static_cast<std::uint32_t>(static_cast<int>(j) * 4096 + static_cast<int>(i));
-    return static_cast<double>(random_normals(key, item).n[0]);
-  };
-  const double i = std::floor(x / cell), j = std::floor(y / cell);
-  const double u = x / cell - i, v = y / cell - j;
-  const double su = u * u * (3 - 2 * u), sv = v * v * (3 - 2 * v);
-  const double top = std::lerp(at(i, j), at(i + 1, j), su);
-  return std::lerp(top, std::lerp(at(i, j + 1), at(i + 1, j + 1), su), sv);
+/// The frame, at most `death`, at which a target leaves the picture.
+int leaves_view(const Path& path, int birth, int death) {
+  int frame = birth;
+  const auto seen = [](const Kinematics& k) { return k.x > 8 && k.x < kWidth - 8; };
+  while (frame < death && seen(path((frame - birth) * kInterval))) ++frame;
+  return frame;
 }
 
-double sky(double x, double y) {
-  const double clouds = 5 * value_noise(x, 2 * y, 160, 1) + 2.5 * value_noise(x, 2 * y, 60, 2) +
-                        1.2 * value_noise(x, y, 24, 3);
-  return 94 + 22 * y / kHeight + std::max(clouds, -3.0);
-}
+/// Smooth noise over 0 <= x <= 1024, 0 <= y <= 512: normals on a lattice, joined by cubic steps.
+class SmoothNoise {
+ public:
+  /// `cell` [px] from node to node; `octave` tells one noise from another.
+  SmoothNoise(int cell, std::uint64_t octave) : cell_(cell), columns_(kWidth / cell + 2) {
+    const int nodes = columns_ * (2 * kHeight / cell + 2);
+    const RandomKey key = random_key(octave, 0, Purpose::scenario);
+    for (int i = 0; i < nodes; ++i) {
+      nodes_.push_back(random_normals(key, static_cast<std::uint32_t>(i)).n[0]);
+    }
+  }
+  double operator()(double x, double y) const {
+    const double i = std::floor(x / cell_), j = std::floor(y / cell_);
+    const double u = x / cell_ - i, v = y / cell_ - j;
+    const double across = u * u * (3 - 2 * u), down = v * v * (3 - 2 * v);
+    const double* node = &nodes_[static_cast<std::size_t>(j * columns_ + i)];
+    return std::lerp(std::lerp(node[0], node[1], across),
+                     std::lerp(node[columns_], node[columns_ + 1], across), down);
+  }
 
-double ground(double x, double y) {
-  return 128 + 6 * value_noise(x, y, 30, 4) + 3 * value_noise(x, y, 7, 5);
-}
+ private:
+  int cell_, columns_;
+  std::vector<double> nodes_;
+};
 
-double skyline(double x) {
-  return 222 + 10 * value_noise(x, 0, 120, 6) + 3 * value_noise(x, 0, 18, 7);
-}
+/// Grey levels of the background: a sky that brightens downwards, clouds, rough ground.
+struct Landscape {
+  SmoothNoise large{160, 1}, medium{60, 2}, small{24, 3};
+  SmoothNoise fields{30, 4}, rough{7, 5}, hills{120, 6}, trees{18, 7};
+
+  double sky(double x, double y) const {
+    const double clouds = 5 * large(x, 2 * y) + 2.5 * medium(x, 2 * y) + 1.2 * small(x, y);
+    return 94 + 22 * y / kHeight + std::max(clouds, -3.0);
+  }
+  double ground(double x, double y) const { return 128 + 6 * fields(x, y) + 3 * rough(x, y); }
+  double skyline(double x) const { return 222 + 10 * hills(x, 0) + 3 * trees(x, 0); }
+};
 
 Image<float> landscape() {
+  const Landscape land;
   Image<float> image(kWidth, kHeight);
   const ImageView<float> out = image.view();
   for (int x = 0; x < kWidth; ++x) {
-    const double edge = skyline(x);
+    const double edge = land.skyline(x);
     for (int y = 0; y < kHeight; ++y) {
       const double share = std::clamp(y - edge + 0.5, 0.0, 1.0);  // of ground in the pixel
-      out(x, y) = static_cast<float>(std::lerp(sky(x, y), ground(x, y), share));
+      out(x, y) = static_cast<float>(std::lerp(land.sky(x, y), land.ground(x, y), share));
     }
   }
   return image;
@@ -108,11 +127,10 @@ Scene make_scene(const IrClipScene& config) {
     const double share = static_cast<double>(i) / (kScripts.size() - 1);
     const double snr = std::lerp(config.snr_low, config.snr_high, share);
     const int birth = static_cast<int>(script.birth * config.frames);
-    const int path_end = birth + static_cast<int>(frames_per_segment * (script.y.size() - 3));
-    const int death = std::min(static_cast<int>(script.death * config.frames), path_end);
+    const Path path = fly_spline(control_points(script), 1 / (frames_per_segment * kInterval));
+    const int death = leaves_view(path, birth, static_cast<int>(script.death * config.frames));
     scene.targets.push_back(
-        {birth, death, config.noise * scene.point_spread.intensity_of_snr(snr),
-         fly_spline(control_points(script), 1 / (frames_per_segment * kInterval))});
+        {birth, death, config.noise * scene.point_spread.intensity_of_snr(snr), path});
   }
   return scene;
 }
