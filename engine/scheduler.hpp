@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <functional>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
 #include <vector>
 
 #include "glint/engine/frame_preparer.hpp"
@@ -13,7 +16,7 @@ namespace glint {
 /// A raw frame that owns its pixels.
 struct SourceFrame {
   RawPixels pixels;                   ///< points into `owner`
-  std::shared_ptr<const void> owner;  ///< keeps the pixels alive
+  std::shared_ptr<const void> owner;  ///< keeps the pixels alive; let go of on any thread
   double time = 0;                    ///< [s]
 };
 
@@ -27,10 +30,12 @@ class Source {
   virtual double frame_rate() const { return 1; }  ///< [1/s]
 };
 
-/// What a finished scan looks like to sinks (writers, progress, overlay).
+/// What a finished scan looks like to sinks (writers, progress, overlay). Trackers may already work
+/// on later scans, so the log itself is not to be seen here, but a copy of what each tracker
+/// reported of this scan when it had it: by track id, without later revisions.
 struct ScanResult {
   const Scan& scan;
-  const std::vector<const TrackLog*>& logs;  ///< one a tracker, in their order
+  std::span<const std::vector<TrackPoint>> reported;  ///< one a tracker, in their order
 };
 
 /// Where finished scans go, in order.
@@ -40,23 +45,44 @@ class Sink {
   virtual void take(const ScanResult& result) = 0;
 };
 
+/// What a stage of the pipeline has cost so far.
+struct StageTime {
+  std::string stage;   ///< "read", "prepare", the trackers' names, "sinks"
+  double seconds = 0;  ///< [s] of wall clock, its nested parallel work included
+};
+
 /// Reads, prepares, steps every tracker and feeds every sink: serial in-order stages of a pipeline
 /// with a bounded number of frames in flight, inside the device's own arena. An exception of any
-/// stage comes out here after all earlier frames were delivered to the sinks.
+/// stage comes out here after all earlier frames were delivered to the sinks; later frames are not
+/// delivered. What the sinks get, and the logs of a run without an exception, never depend on the
+/// threads; after one, a log may hold points of frames that were then in flight.
 class Scheduler {
  public:
+  static constexpr std::size_t kFramesInFlight = 4;
+
   Scheduler(const Device& device, FramePreparer preparer);
-  void add(std::unique_ptr<Tracker> tracker);
+  ~Scheduler();
+  Scheduler(Scheduler&&) noexcept;
+
+  void add(std::unique_ptr<Tracker> tracker, std::string name = "tracker");
+  /// Sinks get each scan in the order in which they were added.
   void add(Sink& sink);
-  /// Runs to the end of the source; returns the number of frames.
-  std::int64_t run(Source& source);
-  const std::vector<const TrackLog*>& logs() const;
+  /// Runs to the end of the source, or until `stop` is requested: then no more frames are read and
+  /// those in flight are finished. Calls every tracker's finish() but that of one which threw.
+  /// Returns the number of frames delivered. Runs once; throws std::logic_error if called again.
+  std::int64_t run(Source& source, std::stop_token stop = {});
+
+  const std::vector<const TrackLog*>& logs() const;  ///< one a tracker, in their order
+  /// Room for that many points in every log, so that reporting them allocates nothing.
+  void reserve(std::size_t points);
   const Tracker& tracker(std::size_t i) const;
   const FramePreparer& preparer() const;
+  std::int64_t frames() const;  ///< delivered so far, also after an exception
+  std::vector<StageTime> stage_times() const;
 
  private:
   struct State;
-  std::shared_ptr<State> state_;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace glint

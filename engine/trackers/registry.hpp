@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "glint/engine/config.hpp"
@@ -14,11 +15,14 @@ namespace glint {
 /// How a tracker is found by name, configured and made.
 struct TrackerEntry {
   std::string_view name, summary;
-  ConfigSection (*config)();  ///< its defaults, section "trackers.<name>"
+  ConfigSection (*section)(std::string section_name);
   /// `config` is a section that `config()` made. Throws ConfigError for settings that do not fit
   /// together.
   std::unique_ptr<Tracker> (*make)(const ConfigSection& config, const Device& device,
                                    std::uint64_t seed);
+
+  /// Its defaults, section "trackers.<name>".
+  ConfigSection config() const { return section("trackers." + std::string(name)); }
 };
 
 /// The one list of trackers.

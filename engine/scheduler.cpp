@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/scheduler.hpp"
+
+#include <tbb/parallel_pipeline.h>
+
+#include <array>
+#include <atomic>
+#include <deque>
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "glint/engine/stage.hpp"
+
+namespace glint {
+namespace {
+
+/// A tracker, its log and its stage.
+struct Lane {
+  std::unique_ptr<Tracker> tracker;
+  TrackLog log;
+  Stage stage;
+};
+
+}  // namespace
+
+struct Scheduler::State {
+  State(const Device& on, FramePreparer with) : device(on), preparer(std::move(with)) {}
+
+  Token* read(Source& source, const std::stop_token& stop);
+  void prepare(Token& token);
+  void track(std::size_t lane, Token& token);
+  void deliver(Token& token);
+  void run_serial(Source& source, const std::stop_token& stop);
+  void run_pipeline(Source& source, const std::stop_token& stop);
+  void finish();
+
+  Device device;
+  FramePreparer preparer;
+  std::deque<Lane> lanes;
+  std::vector<const TrackLog*> logs;
+  std::vector<Sink*> sinks;
+  Stage reading{"read"}, preparing{"prepare"}, delivering{"sinks"};
+  // Frame f lives in tokens[f % kFramesInFlight]: frames leave in order, so the slot is free again
+  // when the pipeline lets frame f + kFramesInFlight in.
+  std::array<Token, kFramesInFlight> tokens;
+  bool started = false;
+  std::int64_t read_count = 0, delivered = 0;
+  std::atomic<bool> stopping = false;
+  std::exception_ptr error;  // of the earliest frame that failed
+};
+
+Token* Scheduler::State::read(Source& source, const std::stop_token& stop) {
+  if (stopping || stop.stop_requested()) return nullptr;
+  Token& token = tokens[static_cast<std::size_t>(read_count) % kFramesInFlight];
+  token.failed = false;
+  token.error = nullptr;
+  token.frame = read_count;
+  reading.pass(token, [&] { token.source = source.next(); });
+  if (!token.failed && !token.source) return nullptr;
+  if (token.failed) stopping = true;
+  ++read_count;
+  return &token;
+}
+
+void Scheduler::State::prepare(Token& token) {
+  preparing.pass(token, [&] {
+    token.scan = preparer.prepare(token.source->pixels, token.frame, token.source->time);
+    token.source.reset();
+  });
+  if (token.failed) stopping = true;
+}
+
+void Scheduler::State::track(std::size_t i, Token& token) {
+  Lane& lane = lanes[i];
+  lane.stage.pass(token, [&] {
+    lane.tracker->step(token.scan, lane.log);
+    lane.log.at(token.frame, token.reported[i]);
+  });
+  if (token.failed) stopping = true;
+}
+
+void Scheduler::State::deliver(Token& token) {
+  delivering.pass(token, [&] {
+    for (Sink* sink : sinks) sink->take({token.scan, token.reported});
+    ++delivered;
+  });
+  if (token.failed) stopping = true;
+  if (token.error && !error) error = token.error;
+  token.source.reset();
+  token.scan = {};
+}
+
+void Scheduler::State::run_serial(Source& source, const std::stop_token& stop) {
+  while (Token* token = read(source, stop)) {
+    prepare(*token);
+    for (std::size_t i = 0; i < lanes.size(); ++i) track(i, *token);
+    deliver(*token);
+  }
+}
+
+void Scheduler::State::run_pipeline(Source& source, const std::stop_token& stop) {
+  constexpr auto kMode = tbb::filter_mode::serial_in_order;
+  // An exception would make the pipeline drop earlier frames; so none leaves a stage (Stage).
+  auto chain = tbb::make_filter<void, Token*>(kMode, [&](tbb::flow_control& flow) {
+    Token* token = read(source, stop);
+    if (!token) flow.stop();
+    return token;
+  });
+  const auto append = [&chain](const auto& work) {
+    chain &= tbb::make_filter<Token*, Token*>(kMode, [work](Token* token) {
+      work(*token);
+      return token;
+    });
+  };
+  append([this](Token& token) { prepare(token); });
+  for (std::size_t i = 0; i < lanes.size(); ++i) append([this, i](Token& t) { track(i, t); });
+  const auto last = tbb::make_filter<Token*, void>(kMode, [this](Token* t) { deliver(*t); });
+  device.workers().execute([&] { tbb::parallel_pipeline(kFramesInFlight, chain & last); });
+}
+
+void Scheduler::State::finish() {
+  for (Lane& lane : lanes) {
+    if (lane.stage.threw()) continue;
+    const std::exception_ptr failure = lane.stage.attempt([&] { lane.tracker->finish(lane.log); });
+    if (!error) error = failure;
+  }
+}
+
+Scheduler::Scheduler(const Device& device, FramePreparer preparer)
+    : state_(std::make_unique<State>(device, std::move(preparer))) {}
+Scheduler::~Scheduler() = default;
+Scheduler::Scheduler(Scheduler&&) noexcept = default;
+
+void Scheduler::add(std::unique_ptr<Tracker> tracker, std::string name) {
+  Lane& lane = state_->lanes.emplace_back(Lane{std::move(tracker), {}, Stage(std::move(name))});
+  state_->logs.push_back(&lane.log);
+}
+
+void Scheduler::add(Sink& sink) { state_->sinks.push_back(&sink); }
+
+std::int64_t Scheduler::run(Source& source, std::stop_token stop) {
+  State& s = *state_;
+  if (std::exchange(s.started, true)) throw std::logic_error("a Scheduler runs once: make another");
+  for (Token& token : s.tokens) token.reported.resize(s.lanes.size());
+  if (s.device.workers().threads() == 1) {
+    s.run_serial(source, stop);
+  } else {
+    s.run_pipeline(source, stop);
+  }
+  s.finish();
+  if (s.error) std::rethrow_exception(s.error);
+  return s.delivered;
+}
+
+const std::vector<const TrackLog*>& Scheduler::logs() const { return state_->logs; }
+
+void Scheduler::reserve(std::size_t points) {
+  for (Lane& lane : state_->lanes) lane.log.reserve(points);
+}
+
+const Tracker& Scheduler::tracker(std::size_t i) const { return *state_->lanes.at(i).tracker; }
+
+const FramePreparer& Scheduler::preparer() const { return state_->preparer; }
+
+std::int64_t Scheduler::frames() const { return state_->delivered; }
+
+std::vector<StageTime> Scheduler::stage_times() const {
+  std::vector<StageTime> times{state_->reading.time(), state_->preparing.time()};
+  for (const Lane& lane : state_->lanes) times.push_back(lane.stage.time());
+  times.push_back(state_->delivering.time());
+  return times;
+}
+
+}  // namespace glint

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/registry.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "glint/engine/trackers/smc_phd.hpp"
+
+namespace glint {
+namespace {
+
+template <class T, class Config>
+constexpr TrackerEntry entry(std::string_view name, std::string_view summary) {
+  return {name, summary,
+          [](std::string section) { return ConfigSection::of<Config>(std::move(section)); },
+          [](const ConfigSection& config, const Device& device,
+             std::uint64_t seed) -> std::unique_ptr<Tracker> {
+            return std::make_unique<T>(config.as<Config>(), device, seed);
+          }};
+}
+
+constexpr std::array kTrackers{
+    entry<SmcPhd, SmcPhdConfig>("smc-phd",
+                                "particle PHD filter on raw frames, with persistent identities"),
+};
+
+}  // namespace
+
+std::span<const TrackerEntry> all_trackers() { return kTrackers; }
+
+const TrackerEntry& find_tracker(std::string_view name) {
+  const auto* const found = std::ranges::find(kTrackers, name, &TrackerEntry::name);
+  if (found != kTrackers.end()) return *found;
+  std::string message = "tracker '" + std::string(name) + "' is not known: use ";
+  for (const TrackerEntry& tracker : kTrackers) {
+    if (&tracker != kTrackers.data()) message += ", ";
+    message += tracker.name;
+  }
+  throw ConfigError(message);
+}
+
+}  // namespace glint
