@@ -2,15 +2,10 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <span>
-#include <stdexcept>
+
+#include "glint/frontends/usage_error.hpp"
 
 namespace glint::cli {
-
-/// The caller asked for something that cannot be: exit code 2. The message is one line and says
-/// what to do instead.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 // A subcommand is one file with one function: it adds a CLI::App to `app`, its options, an
 // example or two as the footer, and a callback that does the work. The callback returns when all is

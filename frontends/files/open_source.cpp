@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/files/open_source.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "glint/engine/scenario/scenario.hpp"
+#include "glint/frontends/files/fits.hpp"
+#include "glint/frontends/files/inputs.hpp"
+#include "glint/frontends/files/npy.hpp"
+#include "glint/frontends/files/sequence.hpp"
+#ifdef GLINT_WITH_OPENCV
+#include "glint/frontends/video/image_file.hpp"
+#include "glint/frontends/video/video_file.hpp"
+#endif
+
+namespace glint {
+namespace {
+
+constexpr std::string_view kScene = "scene:";
+
+std::unique_ptr<Source> open_picture(const std::string& path, InputKind kind, const Warn& warn) {
+#ifdef GLINT_WITH_OPENCV
+  if (kind == InputKind::video) return open_video(path, warn);
+  return open_image(path);
+#else
+  (void)kind, (void)warn;
+  throw UsageError(path +
+                   ": this glint was built without OpenCV and reads no images or videos; "
+                   "give .npy, FITS or scene:NAME");
+#endif
+}
+
+std::unique_ptr<Source> open_file(const std::string& path, const Warn& warn) {
+  switch (const InputKind kind = kind_of(path)) {
+    case InputKind::fits:
+      return open_fits(path);
+    case InputKind::npy:
+      return open_npy(path);
+    default:
+      return open_picture(path, kind, warn);
+  }
+}
+
+std::unique_ptr<Source> open_scene(std::string_view name, const SourceOptions& options) {
+  const SceneEntry& entry = find_scene(name);
+  Scene scene = entry.make(options.scene ? *options.scene : entry.config());
+  if (options.frame_rate) scene.interval = 1 / *options.frame_rate;
+  return std::make_unique<SceneSource>(std::move(scene), options.seed);
+}
+
+}  // namespace
+
+std::optional<std::string_view> scene_name(std::string_view input) {
+  if (!input.starts_with(kScene)) return std::nullopt;
+  return input.substr(kScene.size());
+}
+
+std::unique_ptr<Source> open_source(std::span<const std::string> inputs,
+                                    const SourceOptions& options) {
+  if (inputs.empty()) throw UsageError("no input; give a video, images or scene:NAME");
+  if (const auto name = scene_name(inputs.front()); name && inputs.size() == 1) {
+    return open_scene(*name, options);
+  }
+  for (const std::string& input : inputs) {
+    if (scene_name(input)) throw UsageError(input + ": a scene must be the only input");
+  }
+  std::vector<std::string> files = expand_inputs(inputs, options.warn);
+  std::optional<std::int64_t> frames;  // known beforehand if every file is one frame
+  if (std::ranges::all_of(files, [](auto& f) { return kind_of(f) == InputKind::image; })) {
+    frames = static_cast<std::int64_t>(files.size());
+  }
+  auto open = [warn = options.warn](const std::string& path) { return open_file(path, warn); };
+  return std::make_unique<SequenceSource>(std::move(files), std::move(open), options.frame_rate,
+                                          frames);
+}
+
+}  // namespace glint
