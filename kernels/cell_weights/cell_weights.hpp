@@ -21,11 +21,21 @@ struct CellRuns {
   std::size_t size() const { return cell.size(); }
 };
 
+/// Sum of `mass` over the runs, in their order: the expected number of targets. P-PHD (16).
+double total_mass(const CellRuns& runs);
+
+/// sums[r] = sum of `values` (one a run) over the runs whose pixels lie in the window of
+/// 2 half_width + 1 pixels around run r's, clipped at the border. Costs as many steps as there are
+/// runs in windows, whatever the frame's size. Added in ascending order of pixels, in double.
+void box_sums(const CellRuns& runs, int width, int height, int half_width,
+              std::span<const float> values, std::span<float> sums);
+
 /// Memory that cell_weights keeps from call to call, so that a warm call allocates nothing.
 struct CellWorkspace {
   CellRuns runs;
   std::vector<float> cell_sum, box_sum;  ///< per run: M and B
   std::vector<std::uint32_t> keys, scratch, counts;
+  std::vector<float> weighted;  ///< per particle: w l
 };
 
 /// Over which particles the normaliser sums.
@@ -35,8 +45,10 @@ enum class Psi {
 };
 
 /// Update of particle weights in track-before-detect PHD: M = sum of w l over a cell, B = sum of M
-/// over the window around it, w' = w l / (clutter + B). P-PHD (14)-(16), with clutter = 1 in ratio
-/// units.
+/// over the window around it, w' = w l / (clutter + B), or 0 where that is 0 / 0. P-PHD (14)-(16),
+/// with clutter = 1 in ratio units. A particle outside the frame, by the pixel floor(x + .5), or of
+/// NaN log ratio has weight 0. Throws std::invalid_argument for arrays of unlike lengths, a frame
+/// of 2^32 pixels or more, a negative window or clutter.
 struct CellWeights {
   static constexpr std::string_view name = "cell_weights";
   static constexpr Tolerance tolerance{1e-9, 2e-5};  // float exp and float sums of one sign
@@ -44,7 +56,7 @@ struct CellWeights {
   struct Args {
     int width = 0, height = 0, half_width = 2;
     Psi psi = Psi::window;
-    float clutter = 1;
+    float clutter = 1;                 ///< lambda, in likelihood-ratio units
     std::span<const float> x, y;       ///< [px]
     std::span<const float> predicted;  ///< w_{k|k-1}
     std::span<const float> log_ratio;  ///< at most `max_log_ratio` is used; -inf means weight 0

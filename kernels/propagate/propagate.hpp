@@ -16,14 +16,19 @@ enum class Motion : std::uint32_t { constant_velocity, constant_acceleration, co
 /// One motion model of a bank.
 struct MotionMode {
   Motion motion = Motion::constant_velocity;
-  float turn_rate = 0;  ///< [rad/s], turns only; positive is anticlockwise with y up (AC-CT), that
-                        ///< is clockwise on a screen with y down is negative
-  float noise = 1e-3f;  ///< power spectral density of the driving noise per axis (of acceleration
-                        ///< for CV and CT [px^2/s^3], of jerk for CA [px^2/s^5])
+  /// [rad/s], turns only; positive turns the stored velocity (vx, vy) so that atan2(vy, vx) grows:
+  /// anticlockwise on a plot with y up (AC-CT), clockwise on a screen with y down.
+  float turn_rate = 0;
+  /// Power spectral density of the driving noise per axis: of acceleration for CV and turns
+  /// [px^2/s^3], of jerk for CA [px^2/s^5].
+  float noise = 1e-3f;
 };
 
-/// Moves particles one step: switches each one's model by a Markov chain, then x' = F x + w, I' = I
-/// + w_I reflected into its range. P-PHD (1), (31), (32), (34).
+/// Moves particles one step: switches each one's model by a Markov chain, then by the new model
+/// x' = F x + w, I' = I + w_I reflected into its range. P-PHD (1), (31), (32), (34). CV and turns
+/// leave accelerations as they are. Particle i draws the same numbers wherever and in whatever
+/// parts it is computed. Throws std::invalid_argument for arrays of unlike lengths, modes without
+/// switching rows that sum to 1, negative noise or step, or low > high.
 struct Propagate {
   static constexpr std::string_view name = "propagate";
   /// Of every component, for |x| <= 1e4 px: float arithmetic.
@@ -34,14 +39,14 @@ struct Propagate {
     std::span<float> x, y, vx, vy, intensity;  ///< in place
     std::span<float> ax, ay;                   ///< in place; may be empty if no mode is CA
     std::span<std::uint32_t> mode;             ///< in place; may be empty if there is one mode
-    std::span<const MotionMode> modes;
-    std::span<const float>
-        switching;              ///< modes x modes, row = from; rows sum to 1; empty if one mode
-    float step = 1;             ///< [s]
-    float intensity_noise = 0;  ///< power spectral density q_i [sigma^2/s]
+    std::span<const MotionMode> modes;         ///< 1 to kMaxModes; a particle's larger mode counts
+                                               ///< as the last one
+    std::span<const float> switching;          ///< modes x modes, row = from; empty if one mode
+    float step = 1;                            ///< [s]
+    float intensity_noise = 0;                 ///< power spectral density q_i [sigma^2/s]
     float intensity_low = 0, intensity_high = 1;
-    std::span<const float> noise_scale = {};  ///< per particle, multiplies the noise's standard
-                                              ///< deviation; empty means 1. P-PHD (21)
+    std::span<const float> noise_scale = {};  ///< per particle, multiplies all its noise's standard
+                                              ///< deviations; empty means 1. P-PHD (21)
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;
   };

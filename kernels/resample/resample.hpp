@@ -20,20 +20,31 @@ struct MovedArray {
   void* destination;
 };
 
+/// Memory that resample keeps from call to call, so that a warm call allocates nothing.
+struct ResampleWorkspace {
+  std::vector<double> sums, shares;  ///< per block of particles: see tbb.cpp
+  std::vector<std::uint32_t> units;
+};
+
 /// Draws ancestors in proportion to weights. Weights are first rounded to whole numbers of at most
-/// 2^28 (fewer above 2^24 particles), so that all sums are exact in double in any order and the
-/// ancestors are the same on every device. Ancestors ascend. Negative and NaN weights count 0; if
-/// all are 0 the weights count as equal.
+/// 2^28 (fewer above 2^24 particles or offspring), so that all sums are exact in double in any
+/// order and the ancestors are the same on every device. Ancestors ascend. Negative and NaN weights
+/// count 0; if all are 0 the weights count as equal. With w normalised, a particle has less than
+/// one offspring more or fewer than L w (systematic), or at least floor(L w) (residual). Throws
+/// std::invalid_argument for offspring of no particles and above kMaxCount.
 struct Resample {
   static constexpr std::string_view name = "resample";
-  static constexpr Tolerance tolerance{};  // equal
+  static constexpr Tolerance tolerance{};                         // equal
+  static constexpr std::size_t kMaxCount = std::size_t{1} << 25;  ///< of particles, of offspring
 
   struct Args {
     std::span<const float> weights;
     std::span<std::uint32_t> ancestors;  ///< written; its length is the number of offspring
     Resampling method = Resampling::systematic;
     RandomKey key = {};
-    std::span<const MovedArray> moved = {};  ///< gathered by the ancestors in the same pass
+    std::span<const MovedArray> moved = {};  ///< gathered by the ancestors in the same pass; a
+                                             ///< destination must not overlap any source
+    ResampleWorkspace* workspace = nullptr;
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
