@@ -52,8 +52,7 @@ struct ExperimentOptions {
   std::function<void(int done, int total)> progress;
 };
 
-/// How an experiment is found by name and run. The result depends on runs and seed alone, never on
-/// the number of workers.
+/// How an experiment is found by name and run.
 struct ExperimentEntry {
   std::string_view name, summary;
   int runs;  ///< that the bands hold for
@@ -64,6 +63,11 @@ struct ExperimentEntry {
 std::span<const ExperimentEntry> all_experiments();
 /// Throws ConfigError that lists the names if there is no such experiment.
 const ExperimentEntry& find_experiment(std::string_view name);
+
+/// Runs it. The result depends on runs and seed alone, never on the number of workers.
+/// Throws ConfigError for less than no runs.
+ExperimentResult run_experiment(const ExperimentEntry& entry, ExperimentOptions options,
+                                Workers& workers);
 
 /// False if a band is missed.
 bool bands_hold(const ExperimentResult& result);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/experiments/experiment.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "glint/engine/config.hpp"
+#include "glint/engine/experiments/phd.hpp"
+
+namespace glint {
+namespace {
+
+constexpr std::array kExperiments{
+    ExperimentEntry{"phd-5.1", "one dim target at 12, 10 and 8 dB: P-PHD section 5.1", 100,
+                    run_phd_5_1},
+};
+
+}  // namespace
+
+std::span<const ExperimentEntry> all_experiments() { return kExperiments; }
+
+const ExperimentEntry& find_experiment(std::string_view name) {
+  std::string known;
+  for (const ExperimentEntry& experiment : kExperiments) {
+    if (experiment.name == name) return experiment;
+    known += (known.empty() ? "" : ", ") + std::string(experiment.name);
+  }
+  throw ConfigError("there is no experiment '" + std::string(name) + "'; choose one of " + known);
+}
+
+ExperimentResult run_experiment(const ExperimentEntry& entry, ExperimentOptions options,
+                                Workers& workers) {
+  if (options.runs < 0) throw ConfigError("runs must be at least 1");
+  if (options.runs == 0) options.runs = entry.runs;
+  ExperimentResult result = entry.run(options, workers);
+  result.name = entry.name;
+  result.runs = options.runs;
+  result.seed = options.seed;
+  return result;
+}
+
+bool bands_hold(const ExperimentResult& result) {
+  return std::all_of(result.rows.begin(), result.rows.end(),
+                     [](const ExperimentRow& row) { return row.inside().value_or(true); });
+}
+
+Summary summarise(std::span<const double> values) {
+  double sum = 0, squares = 0, count = 0;
+  for (const double v : values) {
+    if (!std::isnan(v)) sum += v, ++count;
+  }
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (count == 0) return {kNone, kNone};
+  const double mean = sum / count;
+  for (const double v : values) {
+    if (!std::isnan(v)) squares += (v - mean) * (v - mean);
+  }
+  return {mean, count > 1 ? std::sqrt(squares / (count - 1)) : 0};
+}
+
+}  // namespace glint
