@@ -2,13 +2,15 @@
 #pragma once
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "glint/kernels/core/frame.hpp"
 #include "glint/kernels/core/trial.hpp"
+#include "glint/kernels/prepare_frame/background.hpp"
+#include "glint/kernels/prepare_frame/registration.hpp"
+#include "glint/kernels/prepare_frame/whiten.hpp"
 
 namespace glint {
 
@@ -30,6 +32,7 @@ struct ToGrey {
     bool reciprocal = false;
     float reciprocal_floor = 12;
     ImageView<float> grey;
+    bool* masked = nullptr;  ///< if given, set to whether any pixel became NaN
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "glint/engine/frame_preparer.hpp"
+
+namespace glint {
+
+/// A frame as background models see it.
+struct BackgroundInput {
+  const RawPixels& raw;
+  FrameView grey;  ///< NaN where the pixel is masked
+  bool exact;      ///< grey is the raw pixels unchanged: samples may be kept as they came
+};
+
+/// Background of a stream of frames. For each frame: estimate(), then learn().
+class Background {
+ public:
+  virtual ~Background() = default;
+  /// Writes the frame's background; false if it is the one of the frame before.
+  virtual bool estimate(const BackgroundInput& input, ImageView<float> background) = 0;
+  /// Takes the frame as a sample of those to come, if its turn has come.
+  virtual void learn(const BackgroundInput& input) = 0;
+  virtual std::string description() const = 0;
+};
+
+std::unique_ptr<Background> make_background(const FramesConfig& config, const Device& device);
+
+}  // namespace glint

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/frame_preparer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+#include "glint/engine/background.hpp"
+#include "glint/engine/frame_pool.hpp"
+
+namespace glint {
+namespace {
+
+constexpr int kNoiseSamples = 4096;  // of the noise map, for its median
+
+Polarity polarity_of(const std::string& name) {
+  if (name == "dark") return Polarity::dark;
+  return name == "both" ? Polarity::both : Polarity::bright;
+}
+
+/// Least sigma in grey levels: compressed video freezes blocks, sensors repeat values, and a noise
+/// of 0 would make a target of every later change. ALGORITHMS.md part 3 (3 levels of 8 bits).
+double automatic_floor(const RawPixels& raw, bool reciprocal, FrameView grey) {
+  if (reciprocal) return 0.05;
+  if (std::holds_alternative<const std::uint8_t*>(raw.data)) return 3;
+  if (std::holds_alternative<const std::uint16_t*>(raw.data)) return 0.5;
+  float most = 0;
+  for (int y = 0; y < grey.height; ++y) {
+    for (int x = 0; x < grey.width; ++x) most = std::max(most, std::abs(grey(x, y)));
+  }
+  return most > 0 ? 1e-6 * most : 1e-6;
+}
+
+void check(const RawPixels& raw) {
+  if (raw.width <= 0 || raw.height <= 0) {
+    throw std::invalid_argument("a frame must have at least one pixel");
+  }
+  if (raw.channels != 1 && raw.channels != 3 && raw.channels != 4) {
+    throw std::invalid_argument("a frame must have 1, 3 or 4 channels, got " +
+                                std::to_string(raw.channels));
+  }
+}
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+struct FramePreparer::State {
+  FramesConfig config;
+  Device device;
+  std::unique_ptr<Background> model;
+  FramePool pool;
+  Image<float> background, structure, noise;
+  Image<std::uint8_t> ignored;
+  std::vector<float> workspace;
+  std::size_t pixel_type = 0;
+  int channels = 0, noise_step = 1;
+  double floor = 0, last_sigma = 0, sum_sigma = 0;
+  std::int64_t frames = 0;
+
+  State(const FramesConfig& c, const Device& d)
+      : config(c), device(d), model(make_background(c, d)) {}
+
+  bool masks() const { return ignored.width() > 0; }
+  void start(const RawPixels& raw);
+  void check_like_first(const RawPixels& raw) const;
+  void mask_background();
+  void estimate_background(const BackgroundInput& input);
+  Spread spread(FrameView image, FrameView less);
+  void whiten(FrameView grey, double sigma, ImageView<float> whitened);
+  void fill_masked(ImageView<float> grey) const;
+};
+
+void FramePreparer::State::start(const RawPixels& raw) {
+  background = Image<float>(raw.width, raw.height);
+  structure = Image<float>(raw.width, raw.height);
+  pixel_type = raw.data.index();
+  channels = raw.channels;
+  const auto cells = [&](int step) {
+    return static_cast<double>((raw.width + step - 1) / step) * ((raw.height + step - 1) / step);
+  };
+  while (cells(noise_step) > kNoiseSamples) noise_step += 2;
+  noise = Image<float>((raw.width + noise_step - 1) / noise_step,
+                       (raw.height + noise_step - 1) / noise_step);
+}
+
+void FramePreparer::State::check_like_first(const RawPixels& raw) const {
+  if (raw.width != background.width() || raw.height != background.height()) {
+    throw std::invalid_argument("frame " + std::to_string(frames) + " is " +
+                                size_text(raw.width, raw.height) + " px, but the first was " +
+                                size_text(background.width(), background.height()) +
+                                " px: all frames of a stream must have one size");
+  }
+  if (raw.data.index() != pixel_type || raw.channels != channels) {
+    throw std::invalid_argument("frame " + std::to_string(frames) +
+                                " has another pixel type than the first: all frames of a stream "
+                                "must have one");
+  }
+  if (masks() && (ignored.width() != raw.width || ignored.height() != raw.height)) {
+    throw std::invalid_argument("the mask is " + size_text(ignored.width(), ignored.height()) +
+                                " px, but frames are " + size_text(raw.width, raw.height) + " px");
+  }
+}
+
+void FramePreparer::State::mask_background() {
+  const ImageView<float> pixels = background.view();
+  for (int y = 0; y < pixels.height; ++y) {
+    const std::uint8_t* mask = ignored.view().row(y);
+    for (int x = 0; x < pixels.width; ++x) {
+      if (mask[x] != 0) pixels(x, y) = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+}
+
+void FramePreparer::State::estimate_background(const BackgroundInput& input) {
+  if (!model->estimate(input, background.view())) return;
+  if (masks()) mask_background();
+  if (config.structure) device.run<BackgroundStructure>({background.view(), structure.view()});
+}
+
+Spread FramePreparer::State::spread(FrameView image, FrameView less) {
+  Spread result;
+  device.run<RobustSpread>({image, less, &workspace, &result});
+  return result;
+}
+
+void FramePreparer::State::whiten(FrameView grey, double sigma, ImageView<float> whitened) {
+  Whiten::Args args;
+  args.image = grey;
+  args.background = background.view();
+  if (config.structure) args.structure = structure.view();
+  args.sigma = sigma;
+  args.ring_outer = config.ring ? config.ring_outer / 2 : 0;
+  args.ring_inner = config.ring_inner / 2;
+  args.ring_clip = config.ring_clip;
+  args.polarity = polarity_of(config.polarity);
+  args.clip_low = config.clip_low;
+  args.clip_high = config.clip_high;
+  args.whitened = whitened;
+  args.noise_step = noise_step;
+  args.noise = noise.view();
+  device.run<Whiten>(args);
+}
+
+void FramePreparer::State::fill_masked(ImageView<float> grey) const {
+  for (int y = 0; y < grey.height; ++y) {
+    const float* known = background.view().row(y);
+    for (int x = 0; x < grey.width; ++x) {
+      if (!std::isnan(grey(x, y))) continue;
+      grey(x, y) = std::isnan(known[x]) ? 0.0F : known[x];
+    }
+  }
+}
+
+FramePreparer::FramePreparer(const FramesConfig& config, const Device& device)
+    : state_(std::make_unique<State>(config, device)) {
+  if (config.ring && config.ring_inner >= config.ring_outer) {
+    throw ConfigError("frames.ring_inner must be below frames.ring_outer (" +
+                      std::to_string(config.ring_outer) + "), got " +
+                      std::to_string(config.ring_inner));
+  }
+}
+FramePreparer::~FramePreparer() = default;
+FramePreparer::FramePreparer(FramePreparer&&) noexcept = default;
+FramePreparer& FramePreparer::operator=(FramePreparer&&) noexcept = default;
+
+void FramePreparer::set_mask(Image<std::uint8_t> ignored) { state_->ignored = std::move(ignored); }
+
+Scan FramePreparer::prepare(const RawPixels& raw, std::int64_t frame, double time) {
+  State& s = *state_;
+  check(raw);
+  if (s.frames == 0) s.start(raw);
+  s.check_like_first(raw);
+
+  const auto grey = s.pool.take(raw.width, raw.height);
+  bool masked = false;
+  s.device.run<ToGrey>({raw, s.config.reciprocal, static_cast<float>(s.config.reciprocal_floor),
+                        grey->view(), &masked});
+  const BackgroundInput input{raw, grey->view(), raw.channels == 1 && !s.config.reciprocal};
+  s.estimate_background(input);
+
+  if (s.frames == 0) {
+    s.floor = s.config.sigma_floor > 0 ? s.config.sigma_floor
+                                       : automatic_floor(raw, s.config.reciprocal, grey->view());
+  }
+  const double sigma = std::max(s.floor, s.spread(grey->view(), s.background.view()).sigma);
+  const auto whitened = s.pool.take(raw.width, raw.height);
+  s.whiten(grey->view(), sigma, whitened->view());
+  s.model->learn(input);
+  if (masked) s.fill_masked(grey->view());
+
+  s.last_sigma = s.spread(s.noise.view(), {}).median;
+  s.sum_sigma += s.last_sigma;
+  ++s.frames;
+  Scan scan;
+  scan.frame = frame;
+  scan.time = time;
+  scan.raw = Frame(std::shared_ptr<const Image<float>>(grey));
+  scan.whitened = Frame(std::shared_ptr<const Image<float>>(whitened));
+  scan.noise_sigma = s.last_sigma;
+  return scan;
+}
+
+std::vector<std::string> FramePreparer::notes() const {
+  const State& s = *state_;
+  if (s.frames == 0) return {};
+  char text[96];
+  std::snprintf(text, sizeof text, "noise sigma %.3g grey levels (mean of all frames), floor %.3g",
+                s.sum_sigma / static_cast<double>(s.frames), s.floor);
+  return {text, s.model->description()};
+}
+
+}  // namespace glint

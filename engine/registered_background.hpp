@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "glint/engine/background.hpp"
+
+namespace glint {
+
+/// Median over past frames, each registered to the present one by itself, for cameras that move; a
+/// spatial median for the first frame. Shifts are never chained, and one that does not pay is not
+/// used: chained or ungated registration drifts.
+class RegisteredBackground : public Background {
+ public:
+  RegisteredBackground(const FramesConfig& config, const Device& device);
+  bool estimate(const BackgroundInput& input, ImageView<float> background) override;
+  void learn(const BackgroundInput& input) override;
+  std::string description() const override;
+
+ private:
+  /// A frame and its halves, finest first.
+  struct Pyramid {
+    std::vector<Image<float>> levels;
+    std::vector<FrameView> views;
+  };
+  void build(FrameView image, Pyramid& pyramid) const;
+  FrameView registered(const Pyramid& sample, Image<float>& moved);
+
+  Device device_;
+  int spacing_, max_shift_, stride_;
+  double gain_;
+  std::size_t slots_, next_ = 0;
+  std::int64_t now_ = 0, shifted_ = 0, compared_ = 0;
+  Pyramid present_;
+  std::vector<Pyramid> samples_;
+  std::vector<Image<float>> moved_;
+  std::vector<FrameView> stack_;
+};
+
+}  // namespace glint

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "glint/engine/background.hpp"
+#include "glint/engine/sample_times.hpp"
+
+namespace glint {
+
+/// Running median over samples of past frames, for cameras that stand still; a spatial median for
+/// the first frame. Samples of 8 or 16 bits are kept as such.
+class TemporalBackground : public Background {
+ public:
+  TemporalBackground(const FramesConfig& config, const Device& device);
+  bool estimate(const BackgroundInput& input, ImageView<float> background) override;
+  void learn(const BackgroundInput& input) override;
+  std::string description() const override;
+
+ private:
+  template <class T>
+  struct Samples {
+    std::vector<Image<T>> images;
+    std::vector<ImageView<const T>> views;
+  };
+  void start(const BackgroundInput& input);
+  template <class T>
+  static ImageView<const T> pixels(const RawPixels& raw);
+  template <class T>
+  void keep(Samples<T>& samples, std::size_t slot, ImageView<const T> image);
+
+  Device device_;
+  int spacing_;
+  SampleTimes times_;
+  std::int64_t now_ = 0;
+  bool stale_ = false;
+  std::variant<Samples<std::uint8_t>, Samples<std::uint16_t>, Samples<float>> samples_;
+};
+
+}  // namespace glint
