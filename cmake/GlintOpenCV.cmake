@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # glint_opencv: core, imgproc, imgcodecs and videoio, headers as SYSTEM. The package file comes only
 # with the full libopencv-dev; four small -dev packages are enough here, so fall back to a search.
+include_guard(GLOBAL)
 set(components core imgproc imgcodecs videoio)
 add_library(glint_opencv INTERFACE)
 find_package(OpenCV 4 QUIET COMPONENTS ${components})

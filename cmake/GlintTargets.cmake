@@ -20,6 +20,20 @@ set(GLINT_LANES_FLAGS_plain "")
 set(GLINT_LANES_FLAGS_v3 -march=x86-64-v3)
 set(GLINT_LANES_FLAGS_v4 -march=x86-64-v4 -mprefer-vector-width=512)
 
+# glint_lanes(TARGET NAME FILE): adds a lanes.cpp to TARGET, once per instruction set.
+function(glint_lanes target name file)
+  foreach(isa IN LISTS GLINT_LANES)
+    set(object glint_${name}_${isa})
+    add_library(${object} OBJECT ${file})
+    target_link_libraries(${object} PRIVATE glint_settings)
+    target_compile_definitions(${object} PRIVATE GLINT_LANES=lanes_${isa})
+    # -O3 and no trapping or errno: what lets plain loops become vectors; none of them changes a value.
+    target_compile_options(${object} PRIVATE ${GLINT_LANES_FLAGS_${isa}}
+      -fno-math-errno -fno-trapping-math $<$<CONFIG:Release,RelWithDebInfo>:-O3>)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
+  endforeach()
+endfunction()
+
 # glint_kernel(NAME [more sources]): adds kernels/NAME/{serial,tbb,trial}.cpp, and lanes.cpp once per
 # instruction set.
 function(glint_kernel name)
@@ -29,14 +43,5 @@ function(glint_kernel name)
     list(APPEND sources ${dir}/${extra})
   endforeach()
   target_sources(glint PRIVATE ${sources})
-  foreach(isa IN LISTS GLINT_LANES)
-    set(object glint_${name}_${isa})
-    add_library(${object} OBJECT ${dir}/lanes.cpp)
-    target_link_libraries(${object} PRIVATE glint_settings)
-    target_compile_definitions(${object} PRIVATE GLINT_LANES=lanes_${isa})
-    # -O3 and no trapping or errno: what lets plain loops become vectors; none of them changes a value.
-    target_compile_options(${object} PRIVATE ${GLINT_LANES_FLAGS_${isa}}
-      -fno-math-errno -fno-trapping-math $<$<CONFIG:Release,RelWithDebInfo>:-O3>)
-    target_sources(glint PRIVATE $<TARGET_OBJECTS:${object}>)
-  endforeach()
+  glint_lanes(glint ${name} ${dir}/lanes.cpp)
 endfunction()

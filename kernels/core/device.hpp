@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "glint/kernels/core/kernel_clock.hpp"
 #include "glint/kernels/core/workers.hpp"
 
 namespace glint {
@@ -38,18 +39,32 @@ class Device {
   Workers& workers() const { return *workers_; }
   std::string description() const;
 
+  /// The same device, with its kernels on `clock`, which must outlive it.
+  Device timed_by(KernelClock& clock) const {
+    Device timed(*this);
+    timed.clock_ = &clock;
+    return timed;
+  }
+
   template <Kernel K>
   void run(const typename K::Args& args) const {
+    if (clock_ == nullptr) return choose<K>(args);
+    clock_->time(K::name, [&] { choose<K>(args); });
+  }
+
+ private:
+  template <Kernel K>
+  void choose(const typename K::Args& args) const {
     if (kind_ == DeviceKind::serial) return K::serial(args);
     K::tbb(args, *workers_);
   }
 
- private:
   Device(DeviceKind kind, int threads, Isa isa)
       : kind_(kind), workers_(std::make_shared<Workers>(threads, isa)) {}
 
   DeviceKind kind_;
   std::shared_ptr<Workers> workers_;
+  KernelClock* clock_ = nullptr;
 };
 
 }  // namespace glint

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/bench/harness.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+namespace glint::bench {
+namespace {
+
+constexpr double kSampleSeconds = 4e-3;
+constexpr int kMaxTries = 4;
+constexpr int kMinRounds = 3;
+
+double now() {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(since).count();
+}
+
+void spin() {
+  for (int i = 0; i < 400000; ++i) asm volatile("");
+}
+
+// Tells whether two cores are free: a spin on each takes hardly longer than one alone.
+class Probe {
+ public:
+  Probe() {
+    for (int i = 0; i < 40; ++i) {
+      const double start = now();
+      spin();
+      alone_ = std::min(alone_, now() - start);
+    }
+  }
+  bool two_cores_free() {
+    const double start = now();
+    pair_.for_tiles(2, [](std::size_t) { spin(); });
+    return now() - start < 1.35 * alone_;
+  }
+
+ private:
+  double alone_ = 1e9;
+  Workers pair_{2};
+};
+
+struct Samples {
+  int calls = 1;  // a sample, so that it is long enough for the clock
+  std::vector<double> clean, disturbed;
+};
+
+double seconds_a_call(const Case& c, int calls) {
+  const double start = now();
+  for (int i = 0; i < calls; ++i) c.run();
+  return (now() - start) / calls;
+}
+
+void sample(const Case& c, Probe& probe, Samples& samples) {
+  for (int attempt = 0; attempt < kMaxTries; ++attempt) {
+    bool clean = c.threads < 2 || probe.two_cores_free();
+    const double seconds = seconds_a_call(c, samples.calls);
+    clean = clean && (c.threads < 2 || probe.two_cores_free());
+    (clean ? samples.clean : samples.disturbed).push_back(seconds);
+    if (clean) return;
+  }
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Timing timing(const Case& c, const Samples& samples) {
+  const bool clean = !samples.clean.empty();
+  const auto& used = clean ? samples.clean : samples.disturbed;
+  Timing t{c.name, c.threads, median(used), 0, static_cast<int>(used.size()), 0};
+  t.rate = c.units / t.seconds;
+  t.disturbed = clean ? 0 : t.samples;
+  return t;
+}
+
+std::vector<Timing> time_all(const std::vector<Case>& cases, const Budget& budget) {
+  static Probe probe;
+  std::vector<Samples> samples(cases.size());
+  const double start = now();
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].run();
+    const double once = seconds_a_call(cases[i], 1);
+    samples[i].calls = std::clamp(static_cast<int>(std::ceil(kSampleSeconds / once)), 1, 10000);
+  }
+  for (int round = 0; round < budget.rounds; ++round) {
+    if (round >= kMinRounds && now() - start > budget.seconds) break;
+    for (std::size_t i = 0; i < cases.size(); ++i) sample(cases[i], probe, samples[i]);
+  }
+  std::vector<Timing> timings;
+  for (std::size_t i = 0; i < cases.size(); ++i) timings.push_back(timing(cases[i], samples[i]));
+  return timings;
+}
+
+}  // namespace
+
+std::string verdict(const Figure& figure) {
+  const auto [reached, goal, at_most] = figure.target;
+  const auto meets = [&](double wanted) {
+    return at_most ? figure.value <= wanted : figure.value >= wanted;
+  };
+  if (goal && meets(*goal)) return "goal met";
+  if (reached && meets(*reached)) return "met";
+  if (!reached && !goal) return "";
+  const double wanted = reached ? *reached : *goal;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2fx %s",
+                at_most ? figure.value / wanted : wanted / figure.value,
+                at_most ? "above" : "below");
+  return text;
+}
+
+void Suite::add_threads(const std::string& name, double units,
+                        std::function<void(const Device&)> run) {
+  const int widest = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 2);
+  for (int threads = 1; threads <= widest; ++threads) {
+    add({name + " x" + std::to_string(threads), threads, units,
+         [run, device = Device::tbb(threads)] { run(device); }});
+  }
+}
+
+void Suite::ratio(std::string figure, std::string of, std::string against, Target target) {
+  rules_.push_back({std::move(figure), {std::move(of), std::move(against)}, target, false});
+}
+
+void Suite::ratio_threads(const std::string& figure, const std::string& of,
+                          const std::string& against, Target one, Target two) {
+  ratio(figure + ", x1", of + " x1", against + " x1", one);
+  ratio(figure + ", x2", of + " x2", against + " x2", two);
+}
+
+void Suite::ratio_of_threads(const std::string& figure, const std::string& of,
+                             const std::string& against, Target one, Target two) {
+  ratio(figure + ", x1", of + " x1", against, one);
+  ratio(figure + ", x2", of + " x2", against, two);
+}
+
+void Suite::scaling(const std::string& of, Target target) {
+  ratio(of + ": threads 1 to 2", of + " x2", of + " x1", target);
+}
+
+void Suite::growth(std::string figure, std::vector<std::string> cases, Target target) {
+  rules_.push_back({std::move(figure), std::move(cases), target, true});
+}
+
+void Suite::forget_targets() {
+  for (Rule& rule : rules_) rule.target = {};
+}
+
+Result measure(const Suite& suite, const Budget& budget) {
+  Result result{suite.name_, suite.unit_, time_all(suite.cases_, budget), {}};
+  for (const Suite::Rule& rule : suite.rules_) {
+    std::vector<double> rates;
+    for (const std::string& name : rule.cases) {
+      const auto& all = result.timings;
+      const auto found =
+          std::find_if(all.begin(), all.end(), [&](const Timing& t) { return t.name == name; });
+      if (found != all.end()) rates.push_back(found->rate);
+    }
+    if (rates.size() != rule.cases.size()) continue;
+    const auto [low, high] = std::minmax_element(rates.begin(), rates.end());
+    const double value = rule.spread ? *high / *low : rates[0] / rates[1];
+    result.figures.push_back({rule.figure, value, rule.target});
+  }
+  return result;
+}
+
+}  // namespace glint::bench

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "glint/bench/bench.hpp"
+
+namespace glint::bench {
+
+// One suite a piece of work. Targets of frame-sized work hold for kReferenceSize.
+Suite pixel_likelihood_float(FrameSize size);
+Suite pixel_likelihood_u16(FrameSize size);
+Suite pixel_likelihood_hits(FrameSize size);
+Suite pixel_likelihood_growth();
+Suite particle_likelihood_clouds(FrameSize size);
+Suite particle_likelihood_spread(FrameSize size);
+Suite particle_likelihood_growth();
+Suite propagate_constant_velocity();
+Suite propagate_growth();
+Suite resample_ancestors();
+Suite resample_moves();
+Suite resample_growth();
+Suite cell_weights_clouds(FrameSize size);
+Suite find_points_noise(FrameSize size);
+Suite prepare_frames(FrameSize size);
+/// Every kernel's parity trials, so that a new kernel shows here before it has a suite.
+Suite kernel_trials();
+
+}  // namespace glint::bench
