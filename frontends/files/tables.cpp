@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/files/tables.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "glint/engine/text.hpp"
+#include "glint/frontends/files/csv.hpp"
+#include "glint/frontends/usage_error.hpp"
+
+namespace glint {
+namespace {
+
+using Columns = std::span<const std::string_view>;
+
+TrackStatus status_of(const CsvRow& row, std::size_t column) {
+  for (const auto s : {TrackStatus::tentative, TrackStatus::confirmed, TrackStatus::halted}) {
+    if (row.text(column) == name(s)) return s;
+  }
+  if (row.text(column).empty()) return TrackStatus::confirmed;
+  row.refuse(column, "tentative, confirmed or halted");
+}
+
+}  // namespace
+
+std::string_view name(TrackStatus status) {
+  switch (status) {
+    case TrackStatus::tentative:
+      return "tentative";
+    case TrackStatus::confirmed:
+      return "confirmed";
+    case TrackStatus::halted:
+      break;
+  }
+  return "halted";
+}
+
+std::vector<TrackPoint> read_tracks(const std::string& path) {
+  static constexpr std::array<std::string_view, 4> kRequired{"frame", "track_id", "x", "y"};
+  static constexpr std::array<std::string_view, 9> kOptional{
+      "status", "time", "vx", "vy", "intensity", "existence", "var_x", "cov_xy", "var_y"};
+  std::vector<TrackPoint> points;
+  read_csv(path, kRequired, kOptional, [&](const CsvRow& row) {
+    TrackPoint p;
+    p.frame = row.integer(0), p.track_id = row.integer(1);
+    p.x = row.number(2), p.y = row.number(3);
+    p.status = status_of(row, 4);
+    p.time = row.number(5);
+    p.vx = row.number(6), p.vy = row.number(7);
+    p.intensity = row.number(8), p.existence = row.number(9);
+    p.var_x = row.number(10), p.cov_xy = row.number(11), p.var_y = row.number(12);
+    points.push_back(p);
+  });
+  return points;
+}
+
+std::vector<TruthPoint> read_truth(const std::string& path) {
+  static constexpr std::array<std::string_view, 4> kRequired{"frame", "track_id", "x", "y"};
+  static constexpr std::array<std::string_view, 3> kOptional{"vx", "vy", "intensity"};
+  std::vector<TruthPoint> points;
+  read_csv(path, kRequired, kOptional, [&](const CsvRow& row) {
+    points.push_back({row.integer(0), row.integer(1), row.number(2), row.number(3), row.number(4),
+                      row.number(5), row.number(6)});
+  });
+  return points;
+}
+
+std::vector<Detection> read_points(const std::string& path) {
+  static constexpr std::array<std::string_view, 4> kRequired{"frame", "x", "y", "amplitude"};
+  std::vector<Detection> points;
+  read_csv(path, kRequired, Columns(), [&](const CsvRow& row) {
+    points.push_back({row.integer(0), row.number(1), row.number(2), row.number(3)});
+  });
+  return points;
+}
+
+std::ofstream open_output(const std::string& path) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  if (!file) throw UsageError(path + ": cannot be written; check the folder and its permissions");
+  return file;
+}
+
+void flush_output(std::ofstream& file, const std::string& path) {
+  if (!file.flush()) throw std::runtime_error(path + ": cannot be written; is the disk full?");
+}
+
+void write_truth(const std::string& path, std::span<const TruthPoint> truth,
+                 std::span<const std::string> comments) {
+  std::ofstream file = open_output(path);
+  for (const std::string& comment : comments) file << '#' << comment << '\n';
+  file << "frame,track_id,x,y,vx,vy,intensity\n";
+  std::string row;
+  for (const TruthPoint& p : truth) {
+    row = std::to_string(p.frame) + ',' + std::to_string(p.track_id);
+    for (const double value : {p.x, p.y, p.vx, p.vy, p.intensity}) {
+      row += ',';
+      if (!std::isnan(value)) append_number(row, value);
+    }
+    file << row << '\n';
+  }
+  flush_output(file, path);
+}
+
+}  // namespace glint

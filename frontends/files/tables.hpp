@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <fstream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glint/engine/metrics/evaluation.hpp"
+#include "glint/engine/tracks.hpp"
+#include "glint/engine/truth.hpp"
+
+namespace glint {
+
+std::string_view name(TrackStatus status);
+
+/// Tables by column name; see read_csv for what they throw. tracks.csv needs frame, track_id, x, y,
+/// and takes status (confirmed if there is none), time, vx, vy, intensity, existence, var_x, cov_xy
+/// and var_y. Model probabilities are passed over.
+std::vector<TrackPoint> read_tracks(const std::string& path);
+/// Needs frame, track_id, x, y; takes vx, vy, intensity.
+std::vector<TruthPoint> read_truth(const std::string& path);
+/// Needs frame, x, y, amplitude.
+std::vector<Detection> read_points(const std::string& path);
+
+/// A file that is written from start to end. Throws UsageError if it cannot be opened.
+std::ofstream open_output(const std::string& path);
+/// Throws std::runtime_error if something could not be written.
+void flush_output(std::ofstream& file, const std::string& path);
+
+/// `comments` are lines without their #. Throws UsageError if the file cannot be written.
+void write_truth(const std::string& path, std::span<const TruthPoint> truth,
+                 std::span<const std::string> comments = {});
+
+}  // namespace glint

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "glint/frontends/files/tables.hpp"
+#include "glint/frontends/files/track_file.hpp"
+#include "glint/frontends/usage_error.hpp"
+
+namespace glint {
+namespace {
+
+constexpr std::array<std::string_view, 9> kValueNames{
+    "x", "y", "vx", "vy", "intensity", "existence", "var_x", "cov_xy", "var_y"};
+
+std::array<double, 9> values_of(const TrackPoint& p) {
+  return {p.x, p.y, p.vx, p.vy, p.intensity, p.existence, p.var_x, p.cov_xy, p.var_y};
+}
+
+void append_cell(std::string& row, double value) {
+  row += ',';
+  if (!std::isnan(value)) fmt::format_to(std::back_inserter(row), "{:.8g}", value);
+}
+
+/// Comments: "##" is a remark, "# " the configuration as TOML, so that a program that strips one #
+/// from each line has a configuration file.
+class CsvFormat : public TrackFormat {
+ public:
+  std::string header(const RunRecord& run, const std::vector<std::string>& modes) override {
+    std::string text = fmt::format(
+        "## glint {}, tracks of {}; to repeat the run: glint track INPUT --config THIS_FILE\n",
+        GLINT_VERSION, run.tracker);
+    for (std::string_view rest = run.config; !rest.empty();) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size() - 1);
+      text += rest[0] == '\n' ? "#" : "# ";
+      text += rest.substr(0, end + 1);
+      rest.remove_prefix(end + 1);
+    }
+    if (text.back() != '\n') text += '\n';
+    text += "frame,time,track_id,status";
+    for (const auto column : kValueNames) text.append(",").append(column);
+    for (const auto& mode : modes) text += ",p_" + mode;
+    return text + '\n';
+  }
+  std::string point(const TrackPoint& p) const override {
+    std::string row = fmt::format("{},{:.9g},{},{}", p.frame, p.time, p.track_id, name(p.status));
+    for (const double value : values_of(p)) append_cell(row, value);
+    for (const double probability : p.mode_probability) append_cell(row, probability);
+    return row + '\n';
+  }
+  std::string trailer(const std::vector<std::string>& notes) const override {
+    std::string text;
+    for (const std::string& note : notes) text += "## estimated: " + note + '\n';
+    return text;
+  }
+};
+
+/// One object a line: first the run, then a point each under the names of tracks.csv, last what was
+/// estimated. Unknown values are null.
+class JsonLinesFormat : public TrackFormat {
+ public:
+  std::string header(const RunRecord& run, const std::vector<std::string>& modes) override {
+    modes_ = modes;
+    const nlohmann::ordered_json line = {
+        {"glint", GLINT_VERSION}, {"tracker", run.tracker}, {"config", run.config}};
+    return line.dump() + '\n';
+  }
+  std::string point(const TrackPoint& p) const override {
+    nlohmann::ordered_json line = {
+        {"frame", p.frame}, {"time", p.time}, {"track_id", p.track_id}, {"status", name(p.status)}};
+    const auto values = values_of(p);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      line[std::string(kValueNames[i])] = values[i];  // NaN becomes null
+    }
+    for (std::size_t i = 0; i < p.mode_probability.size() && i < modes_.size(); ++i) {
+      line["p_" + modes_[i]] = p.mode_probability[i];
+    }
+    return line.dump() + '\n';
+  }
+  std::string trailer(const std::vector<std::string>& notes) const override {
+    return nlohmann::ordered_json{{"estimated", notes}}.dump() + '\n';
+  }
+
+ private:
+  std::vector<std::string> modes_;
+};
+
+/// MOTChallenge: confirmed points only, as boxes about the target; the format has no comments.
+class MotFormat : public TrackFormat {
+ public:
+  std::string header(const RunRecord&, const std::vector<std::string>&) override { return {}; }
+  std::string point(const TrackPoint& p) const override {
+    if (p.status != TrackStatus::confirmed) return {};
+    constexpr double kSide = 7;  // [px], +-3 sigma of the default point spread
+    const double confidence = std::isnan(p.existence) ? 1 : p.existence;
+    // frames count from 1, and so do pixels: the first one's centre is (1, 1)
+    return fmt::format("{},{},{:.8g},{:.8g},{},{},{:.6g},-1,-1,-1\n", p.frame + 1, p.track_id,
+                       p.x + 1 - kSide / 2, p.y + 1 - kSide / 2, kSide, kSide, confidence);
+  }
+  std::string trailer(const std::vector<std::string>&) const override { return {}; }
+};
+
+}  // namespace
+
+std::unique_ptr<TrackFormat> track_format(const std::string& path) {
+  if (path.ends_with(".csv")) return std::make_unique<CsvFormat>();
+  if (path.ends_with(".jsonl")) return std::make_unique<JsonLinesFormat>();
+  if (path.ends_with(".txt")) return std::make_unique<MotFormat>();
+  throw UsageError(path + ": unknown track format; end the name in .csv, .jsonl or .mot.txt");
+}
+
+}  // namespace glint
