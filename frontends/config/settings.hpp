@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "glint/engine/config.hpp"
+
+namespace glint {
+
+/// A field and the section that it stands in.
+struct Setting {
+  ConfigSection* section = nullptr;
+  ConfigField* field = nullptr;
+  std::string key() const { return section->name() + '.' + field->key; }
+};
+
+/// The setting whose full key ("trackers.smc-phd.birth_particles") is `key` or ends in ".<key>"; a
+/// full match goes before the others. Throws ConfigError for none, with the nearest known key, and
+/// for several, with their full keys.
+Setting find_setting(std::string_view key, std::span<ConfigSection> sections);
+
+/// Throws ConfigError for a section [name] that is not among `sections`, with the nearest one.
+[[noreturn]] void refuse_section(std::string_view name, std::span<ConfigSection> sections);
+
+/// Carries out --set: `assignment` is "key=value", the key as find_setting() takes it. Throws
+/// ConfigError for a missing =, an unknown or ambiguous key, and a value that the field refuses.
+void apply_set(std::string_view assignment, std::span<ConfigSection> sections);
+
+}  // namespace glint
