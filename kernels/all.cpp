@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "glint/kernels/add_noise/add_noise.hpp"
 #include "glint/kernels/birth_scores/birth_scores.hpp"
 #include "glint/kernels/cell_weights/cell_weights.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
@@ -24,6 +25,7 @@ std::span<const KernelEntry> all_kernels() {
       KernelEntry{CellWeights::name, &CellWeights::trials},
       KernelEntry{FindPoints::name, &FindPoints::trials},
       KernelEntry{BirthScores::name, &BirthScores::trials},
+      KernelEntry{AddNoise::name, &AddNoise::trials},
   };
   return kAll;
 }
