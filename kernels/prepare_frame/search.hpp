@@ -12,6 +12,11 @@ struct NormalEquations {
   double xx = 0, xy = 0, yy = 0, xe = 0, ye = 0;
 };
 
+/// Large frames are looked at in every so many rows only: about 2^18 pixels say enough.
+inline int row_step(int width, int height) {
+  return std::max<int>(1, static_cast<int>(static_cast<double>(width) * height / 0x1p18));
+}
+
 /// The search that the reference and the fast path of EstimateShift share. They differ in how they
 /// sum: `difference(reference, moving, dx, dy)` is a mean absolute difference, `equations(...)`
 /// gives the NormalEquations of the same arguments.

@@ -27,7 +27,8 @@ double sample(FrameView image, int x, int y, double dx, double dy) {
 double mean_difference(FrameView reference, FrameView moving, double dx, double dy) {
   double sum = 0;
   std::int64_t count = 0;
-  for (int y = 0; y < reference.height; ++y) {
+  const int step = row_step(reference.width, reference.height);
+  for (int y = 0; y < reference.height; y += step) {
     for (int x = 0; x < reference.width; ++x) {
       const double difference = std::abs(sample(moving, x, y, dx, dy) - reference(x, y));
       if (std::isnan(difference)) continue;
@@ -40,7 +41,8 @@ double mean_difference(FrameView reference, FrameView moving, double dx, double 
 
 NormalEquations normal_equations(FrameView reference, FrameView moving, double dx, double dy) {
   NormalEquations sums;
-  for (int y = 1; y < reference.height - 1; ++y) {
+  const int step = row_step(reference.width, reference.height);
+  for (int y = 1; y < reference.height - 1; y += step) {
     for (int x = 1; x < reference.width - 1; ++x) {
       const double gx = (static_cast<double>(reference(x + 1, y)) - reference(x - 1, y)) / 2;
       const double gy = (static_cast<double>(reference(x, y + 1)) - reference(x, y - 1)) / 2;
