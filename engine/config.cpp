@@ -132,7 +132,8 @@ std::string to_toml(const ConfigField& field) {
                         [](const int* i) { return value_text(std::int64_t{*i}); },
                         [](const double* x) {
                           const std::string text = number_text(*x);
-                          const bool whole = text.find_first_not_of("-0123456789") == text.npos;
+                          const bool whole =
+                              text.find_first_not_of("-0123456789") == std::string::npos;
                           return whole ? text + ".0" : text;
                         },
                         [](const std::string* s) { return quoted(*s); },

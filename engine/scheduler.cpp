@@ -29,7 +29,7 @@ struct Scheduler::State {
 
   Token* read(Source& source, const std::stop_token& stop);
   void prepare(Token& token);
-  void track(std::size_t lane, Token& token);
+  void track(std::size_t i, Token& token);
   void deliver(Token& token);
   void run_serial(Source& source, const std::stop_token& stop);
   void run_pipeline(Source& source, const std::stop_token& stop);
@@ -139,7 +139,7 @@ void Scheduler::add(std::unique_ptr<Tracker> tracker, std::string name) {
 
 void Scheduler::add(Sink& sink) { state_->sinks.push_back(&sink); }
 
-std::int64_t Scheduler::run(Source& source, std::stop_token stop) {
+std::int64_t Scheduler::run(Source& source, const std::stop_token& stop) {
   State& s = *state_;
   if (std::exchange(s.started, true)) throw std::logic_error("a Scheduler runs once: make another");
   for (Token& token : s.tokens) token.reported.resize(s.lanes.size());

@@ -70,7 +70,7 @@ class Scheduler {
   /// Runs to the end of the source, or until `stop` is requested: then no more frames are read and
   /// those in flight are finished. Calls every tracker's finish() but that of one which threw.
   /// Returns the number of frames delivered. Runs once; throws std::logic_error if called again.
-  std::int64_t run(Source& source, std::stop_token stop = {});
+  std::int64_t run(Source& source, const std::stop_token& stop = {});
 
   const std::vector<const TrackLog*>& logs() const;  ///< one a tracker, in their order
   /// Room for that many points in every log, so that reporting them allocates nothing.

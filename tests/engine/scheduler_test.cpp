@@ -84,7 +84,7 @@ std::vector<std::int64_t> first(std::int64_t n) {
   return frames;
 }
 
-Hook throws_at(std::int64_t when, std::string message) {
+Hook throws_at(std::int64_t when, const std::string& message) {
   return [when, message](std::int64_t frame) {
     if (frame == when) throw std::runtime_error(message);
   };

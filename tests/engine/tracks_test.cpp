@@ -24,6 +24,7 @@ TrackPoint point(std::int64_t frame, std::int64_t id, double x = 0) {
 
 std::vector<FrameAndTrack> keys(const std::vector<TrackPoint>& points) {
   std::vector<FrameAndTrack> out;
+  out.reserve(points.size());
   for (const TrackPoint& p : points) out.emplace_back(p.frame, p.track_id);
   return out;
 }
