@@ -41,7 +41,7 @@ inline constexpr int kImageMargin = 16;
 inline std::ptrdiff_t padded_pitch(int width, std::size_t element_size) {
   const std::size_t line = 64 / element_size;
   std::size_t pitch = (static_cast<std::size_t>(width) + kImageMargin + line - 1) / line * line;
-  if ((pitch & (pitch - 1)) == 0) pitch += line;
+  while ((pitch & (pitch - 1)) == 0) pitch += line;
   return static_cast<std::ptrdiff_t>(pitch);
 }
 

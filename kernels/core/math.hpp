@@ -19,7 +19,7 @@ GLINT_INLINE float clamp(float x, float low, float high) {
 /// Adding this rounds |x| < 2^22 to the nearest integer (ties to even) in the low mantissa bits.
 inline constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
 
-/// e^x, error <= 1 ulp; 0 below -87, e^88 above 88.
+/// e^x, error <= 1.06 ulp (every float tried); 0 below -87, e^88 above 88.
 GLINT_INLINE float exp(float x) {
   const float bounded = clamp(x, -87.0f, 88.0f);
   const float shifted = fma(bounded, 1.44269504f, kRound);
@@ -39,7 +39,7 @@ GLINT_INLINE float exp(float x) {
   return x < -87.0f ? 0.0f : y;
 }
 
-/// ln(a) for normal a > 0, error <= 1 ulp.
+/// ln(a) for normal a > 0, error <= .87 ulp (every float tried).
 GLINT_INLINE float log(float a) {
   const std::int32_t e = (bits(a) - 0x3f2aaaab) & static_cast<std::int32_t>(0xff800000u);
   const float m = from_bits(bits(a) - e);

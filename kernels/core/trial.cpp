@@ -10,7 +10,7 @@ namespace {
 
 bool inside(double want, double got, Tolerance t) {
   if (want == got || (std::isnan(want) && std::isnan(got))) return true;
-  return std::abs(got - want) <= t.absolute + t.relative * std::abs(want);
+  return std::isfinite(want) && std::abs(got - want) <= t.absolute + t.relative * std::abs(want);
 }
 
 }  // namespace

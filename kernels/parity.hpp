@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "glint/kernels/core/device.hpp"
+#include "glint/kernels/core/trial.hpp"
+
+namespace glint {
+
+/// How one trial of a kernel came out on one device.
+struct ParityRow {
+  std::string kernel, trial, device;
+  /// Largest |got - want| over its tolerance; <= 1 passes, infinity if a value or its place differs
+  /// beyond measure (NaN, another length, no tolerance at all).
+  double worst = 0;
+  std::optional<Mismatch> outside = std::nullopt;  ///< first value outside the tolerance of serial
+  std::optional<Mismatch> other_bits =
+      std::nullopt;  ///< first value that is not bit for bit the first device's
+
+  bool ok() const { return !outside && !other_bits; }
+};
+
+/// One sentence a row: device, verdict, and the first differing index if there is one.
+std::string description(const ParityRow& row);
+
+/// Runs every trial of a kernel on the serial device and on each of `devices`: all must be inside
+/// the trial's tolerance of serial, and bitwise equal to the first of them.
+std::vector<ParityRow> check_parity(const KernelEntry& kernel, std::span<const Device> devices);
+
+/// The devices that must agree bit for bit: for tbb 1, 2, 3 and 8 threads on every instruction set
+/// that runs here; two of the reference for serial. Eight threads only run at once while the caller
+/// holds a tbb::global_control that allows them.
+std::vector<Device> parity_devices(DeviceKind kind);
+
+}  // namespace glint
