@@ -28,18 +28,12 @@ double ordered_sum(const AlignedVector<float>& values, int width, int height,
   return std::accumulate(rows.begin(), rows.end(), 0.0);
 }
 
-/// Pixels whose 3x3 neighbourhood reaches the threshold, as flat indices.
-void cells_near(FrameView z, double threshold, std::vector<std::uint32_t>& cells) {
+/// Pixels above the threshold, as flat indices.
+void cells_above(FrameView z, double threshold, std::vector<std::uint32_t>& cells) {
   cells.clear();
   for (int y = 0; y < z.height; ++y) {
     for (int x = 0; x < z.width; ++x) {
-      bool above = false;
-      for (int j = std::max(0, y - 1); j <= std::min(z.height - 1, y + 1) && !above; ++j) {
-        for (int i = std::max(0, x - 1); i <= std::min(z.width - 1, x + 1); ++i) {
-          above = above || z(i, j) >= threshold;
-        }
-      }
-      if (above) cells.push_back(static_cast<std::uint32_t>(y * z.width + x));
+      if (z(x, y) >= threshold) cells.push_back(static_cast<std::uint32_t>(y * z.width + x));
     }
   }
 }
@@ -145,7 +139,7 @@ std::size_t Births::draw(const Frame& z, std::int64_t frame, double step,
 
 std::size_t Births::draw_uniform(std::int64_t frame, Particles& p, std::size_t at) {
   const FrameView z = now_.whitened.view();
-  cells_near(z, config_.threshold, cells_);
+  cells_above(z, config_.threshold, cells_);
   if (cells_.empty()) return 0;
   const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth);
   const auto count = static_cast<std::size_t>(config_.count);
@@ -156,8 +150,9 @@ std::size_t Births::draw_uniform(std::int64_t frame, Particles& p, std::size_t a
     const auto pick = static_cast<std::size_t>(uniform(a.w[0]) * static_cast<float>(cells_.size()));
     const auto cell = static_cast<int>(cells_[std::min(pick, cells_.size() - 1)]);
     const std::size_t to = at + i;
-    p.x[to] = static_cast<float>(cell % z.width) + uniform(a.w[1]) - 0.5f;
-    p.y[to] = static_cast<float>(cell / z.width) + uniform(a.w[2]) - 0.5f;
+    // Around the cell: the target may peak in a neighbour of the cell that noise lifted.
+    p.x[to] = static_cast<float>(cell % z.width) + 3 * uniform(a.w[1]) - 1.5f;
+    p.y[to] = static_cast<float>(cell / z.width) + 3 * uniform(a.w[2]) - 1.5f;
     p.vx[to] = speed * (2 * uniform(b.w[0]) - 1);
     p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
     p.intensity[to] = draw_intensity(b.w[2]);

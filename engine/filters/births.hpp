@@ -14,7 +14,7 @@ namespace glint {
 
 /// Where new-born particles come from.
 enum class BirthProposal {
-  uniform,         ///< cells near a pixel above a threshold. P-PHD section 5.1
+  uniform,         ///< the 3x3 pixels around each one above a threshold. P-PHD section 5.1
   matched_filter,  ///< cells in proportion to their birth score, importance weights
   two_frame        ///< a pair of cells in two successive frames: position and velocity at once
 };
