@@ -9,11 +9,11 @@ install(TARGETS glint glint_settings EXPORT glintTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-# lanes.hpp are the insides of kernels: they only mean something to the builds of their own folder.
+# lanes*.hpp are the insides of kernels: they only mean something to the builds of their own folder.
 foreach(layer kernels engine)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${layer}/
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/glint/${layer}
-    FILES_MATCHING PATTERN "*.hpp" PATTERN "lanes.hpp" EXCLUDE)
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "lanes*.hpp" EXCLUDE)
 endforeach()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glint)

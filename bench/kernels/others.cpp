@@ -62,21 +62,23 @@ Suite find_points_noise(FrameSize size) {
   struct Map {
     Image<float> map;
     std::vector<Point> points;
+    PointWorkspace workspace;
     FindPoints::Args args() {
       FindPoints::Args a{map.view()};
       a.threshold = 3.5f;
       a.points = &points;
+      a.workspace = &workspace;
       return a;
     }
   };
-  const auto whole = std::make_shared<Map>(Map{noise_frame(size.width, size.height), {}});
+  const auto whole = std::make_shared<Map>(Map{noise_frame(size.width, size.height), {}, {}});
   suite.add_threads("glint", size.pixels(),
                     [whole](const Device& device) { device.run<FindPoints>(whole->args()); });
   suite.add_threads("limit: read", size.pixels(), [whole](const Device& device) {
     read(device.workers(), memory_of(FrameView(whole->map)));
   });
   const FrameSize small{512, 512};
-  const auto part = std::make_shared<Map>(Map{noise_frame(small.width, small.height), {}});
+  const auto part = std::make_shared<Map>(Map{noise_frame(small.width, small.height), {}, {}});
   suite.add({"serial", 1, small.pixels(), [part] { FindPoints::serial(part->args()); }});
   suite.ratio_threads("of reading", "glint", "limit: read", {}, {});
   suite.ratio_of_threads("of the serial reference", "glint", "serial", {}, {});

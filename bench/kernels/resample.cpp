@@ -27,6 +27,7 @@ struct Population {
   Resample::Args args(Resampling method, bool move) {
     Resample::Args a{weights, ancestors, method, random_key(1, 0, Purpose::resample)};
     if (move) a.moved = moved;
+    a.workspace = &workspace;
     return a;
   }
 
@@ -34,6 +35,7 @@ struct Population {
   AlignedVector<std::uint32_t> ancestors;
   std::array<AlignedVector<float>, kMoved> from, to;
   std::array<MovedArray, kMoved> moved;
+  ResampleWorkspace workspace;
 };
 
 std::function<void(const Device&)> kernel(std::shared_ptr<Population> population, Resampling method,
