@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace glint {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Include {
+  std::string file, header;  ///< file relative to the source tree
+};
+
+/// The header that a line includes, or nothing.
+std::string header_of(const std::string& line) {
+  std::size_t at = line.find_first_not_of(" \t");
+  if (at == std::string::npos || line[at] != '#') return {};
+  at = line.find_first_not_of(" \t", at + 1);
+  if (at == std::string::npos || line.compare(at, 7, "include") != 0) return {};
+  const std::size_t open = line.find_first_of("<\"", at + 7);
+  const std::size_t close = line.find_first_of(">\"", open + 1);
+  return close == std::string::npos ? std::string() : line.substr(open + 1, close - open - 1);
+}
+
+std::vector<Include> includes_of(const std::string& room) {
+  std::vector<Include> found;
+  const fs::path root = GLINT_SOURCE_DIR;
+  for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".hpp" && extension != ".cpp" && extension != ".h") continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      const std::string header = header_of(line);
+      if (!header.empty()) found.push_back({fs::relative(entry.path(), root).string(), header});
+    }
+  }
+  return found;
+}
+
+bool starts_with_any(const std::string& text, const std::vector<std::string_view>& starts) {
+  for (const std::string_view start : starts) {
+    if (text.starts_with(start)) return true;
+  }
+  return false;
+}
+
+/// Fails for every file of `rooms`, but those that start with one of `allowed`, that includes a
+/// header which starts with one of `headers`.
+void expect_none(const std::vector<std::string>& rooms,
+                 const std::vector<std::string_view>& headers,
+                 const std::vector<std::string_view>& allowed = {}) {
+  for (const std::string& room : rooms) {
+    const std::vector<Include> all = includes_of(room);
+    EXPECT_FALSE(all.empty()) << room;
+    for (const auto& [file, header] : all) {
+      if (starts_with_any(file, allowed)) continue;
+      EXPECT_FALSE(starts_with_any(header, headers)) << file << " includes " << header;
+    }
+  }
+}
+
+const std::vector<std::string> kRooms{"kernels", "engine", "frontends", "bench"};
+
+TEST(Architecture, KernelsIncludeNothingAboveThem) {
+  expect_none({"kernels"}, {"glint/engine", "glint/frontends", "glint/bench", "Eigen"});
+}
+TEST(Architecture, EngineIncludesNothingAboveIt) {
+  expect_none({"engine"}, {"glint/frontends", "glint/bench"});
+}
+TEST(Architecture, OpenCvStaysInVideoAndInBaselines) {
+  expect_none(kRooms, {"opencv"}, {"frontends/video/", "bench/baselines/"});
+}
+TEST(Architecture, TomlStaysInConfig) { expect_none(kRooms, {"toml++"}, {"frontends/config/"}); }
+TEST(Architecture, TbbStaysInKernelsAndTheScheduler) {
+  // The tools that count threads may hold a global_control; the library may not.
+  const std::vector<std::string_view> headers{"tbb/", "oneapi/tbb"};
+  expect_none({"engine"}, headers, {"engine/scheduler"});
+  expect_none({"frontends", "bench"}, headers, {"frontends/cli/parity.cpp", "bench/baselines/"});
+  expect_none({"kernels", "engine"}, {"tbb/global_control", "oneapi/tbb/global_control"});
+}
+TEST(Architecture, LibraryNeedsNoFrontEndsPackages) {
+  expect_none({"kernels", "engine"}, {"CLI/", "nlohmann", "fmt/", "fitsio", "iostream"});
+}
+TEST(Architecture, InTreeHeadersAreNamedFromTheirLayer) {
+  for (const std::string& room : kRooms) {
+    for (const auto& [file, header] : includes_of(room)) {
+      EXPECT_FALSE(header.starts_with("..")) << file << " includes " << header;
+      const fs::path beside = fs::path(GLINT_SOURCE_DIR) / fs::path(file).parent_path() / header;
+      EXPECT_FALSE(fs::exists(beside)) << file << " includes " << header;
+    }
+  }
+}
+
+TEST(IncludeReader, ReadsTheHeaderOfALine) {
+  EXPECT_EQ(header_of("#include <tbb/info.h>"), "tbb/info.h");
+  EXPECT_EQ(header_of("  # include \"glint/a.hpp\"  // why"), "glint/a.hpp");
+  EXPECT_EQ(header_of("// #include <vector>"), "");
+  EXPECT_EQ(header_of("#pragma once"), "");
+  EXPECT_EQ(header_of(""), "");
+}
+
+}  // namespace
+}  // namespace glint

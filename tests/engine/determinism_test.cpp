@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "glint/engine/log_parity.hpp"
+#include "glint/engine/scenario/scenes.hpp"
+
+namespace glint {
+namespace {
+
+/// 1, 2, 3 and 8 threads, then every instruction set on two.
+std::vector<Device> devices() {
+  std::vector<Device> list;
+  for (const int threads : {1, 2, 3, 8}) list.push_back(Device::tbb(threads));
+  for (const Isa isa : runnable_isas()) list.push_back(Device::tbb(2, isa));
+  return list;
+}
+
+class Determinism : public testing::TestWithParam<TrackerEntry> {
+ protected:
+  void expect_one_log(const Scene& scene, std::span<const Device> all) {
+    for (const LogParityRow& row : check_log_parity(GetParam(), scene, 3, all)) {
+      EXPECT_TRUE(row.ok()) << row.scene << " on " << row.device << ": " << row.points
+                            << " points, first different line: " << row.first_other_line;
+    }
+  }
+  tbb::global_control eight_{tbb::global_control::max_allowed_parallelism, 8};
+};
+
+std::string test_name(const testing::TestParamInfo<TrackerEntry>& info) {
+  std::string name(info.param.name);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(Trackers, Determinism,
+                         testing::ValuesIn(all_trackers().begin(), all_trackers().end()),
+                         test_name);
+
+TEST_P(Determinism, LogOfManyTilesIsTheSameForAnyThreadsAndInstructionSet) {
+  IrClipScene clip;
+  clip.frames = 20;
+  expect_one_log(make_scene(clip), devices());
+}
+
+TEST_P(Determinism, LogOfASmallFrameIsTheSameForAnyThreadsAndInstructionSet) {
+  expect_one_log(make_scene(CrossingScene{}), devices());
+}
+
+TEST_P(Determinism, SerialDeviceRepeatsItself) {
+  expect_one_log(make_scene(CrossingScene{}), std::vector{Device::serial(), Device::serial()});
+}
+
+TEST_P(Determinism, AnotherSeedGivesAnotherLog) {
+  const Scene scene = make_scene(CrossingScene{});
+  EXPECT_NE(track_log(GetParam(), scene, 3, Device::tbb(2)).text(),
+            track_log(GetParam(), scene, 4, Device::tbb(2)).text());
+}
+
+TEST(LogParity, NamesTheFirstOtherLine) {
+  EXPECT_EQ(first_other_line("a\nb\n", "a\nb\n"), 0u);
+  EXPECT_EQ(first_other_line("a\nb\n", "a\nc\n"), 2u);
+  EXPECT_EQ(first_other_line("a\nb\n", "a\nb\nc\n"), 3u);
+  EXPECT_EQ(first_other_line("", "a\n"), 1u);
+}
+
+TEST(LogParity, AnEmptyLogFails) { EXPECT_FALSE(LogParityRow{}.ok()); }
+
+}  // namespace
+}  // namespace glint
