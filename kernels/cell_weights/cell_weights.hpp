@@ -34,8 +34,8 @@ void box_sums(const CellRuns& runs, int width, int height, int half_width,
 struct CellWorkspace {
   CellRuns runs;
   std::vector<float> cell_sum, box_sum;  ///< per run: M and B
-  std::vector<std::uint32_t> keys, scratch, counts;
-  std::vector<float> weighted;  ///< per particle: w l
+  std::vector<float> weighted;           ///< per particle: w l
+  std::vector<std::uint32_t> keys, scratch, indices, counts;
 };
 
 /// Over which particles the normaliser sums.

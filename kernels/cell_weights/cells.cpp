@@ -39,9 +39,8 @@ void check(const CellWeights::Args& args) {
   require(args.y.size() == n && args.predicted.size() == n && args.log_ratio.size() == n &&
               args.updated.size() == n,
           "particle arrays must have one length");
-  require(args.width >= 0 && args.height >= 0 &&
-              static_cast<std::int64_t>(args.width) * args.height < (std::int64_t{1} << 32),
-          "the frame must have fewer than 2^32 pixels");
+  require(args.width >= 0 && args.height >= 0 && args.width < 65536 && args.height < 65536,
+          "the frame must have at most 65535 pixels a side");
   require(args.half_width >= 0 && args.clutter >= 0,
           "the window and the clutter must not be negative");
 }

@@ -10,9 +10,10 @@ namespace glint::propagate {
 /// a' = a + ax n0 + av n1 + aa n2 (upper sign for x).
 template <class T>
 struct Move {
-  T along, across, cosine, sine, half, time;
-  T xx, vx, vv, ax, av, aa;
+  T along, across, cosine, sine, xx, vx, vv;  ///< kPlainTerms; CV and turns have no others
+  T half, time, ax, av, aa;
 };
+inline constexpr int kPlainTerms = 7, kTerms = 12;
 
 /// A bank of modes over one step.
 template <class T>

@@ -22,8 +22,15 @@ struct MovedArray {
 
 /// Memory that resample keeps from call to call, so that a warm call allocates nothing.
 struct ResampleWorkspace {
-  std::vector<double> sums, shares;  ///< per block of particles: see tbb.cpp
-  std::vector<std::uint32_t> units;
+  struct Block {
+    std::int64_t copies, mass;  ///< sums before the block
+    std::int32_t begin;         ///< its first offspring
+  };
+  struct Unit {
+    std::uint32_t block, piece;
+  };
+  std::vector<Block> blocks;
+  std::vector<Unit> units;
 };
 
 /// Draws ancestors in proportion to weights. Weights are first rounded to whole numbers of at most
