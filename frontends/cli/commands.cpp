@@ -6,11 +6,15 @@
 #include <exception>
 
 #include "glint/engine/config.hpp"
+#ifdef GLINT_WITH_OPENCV
+#include "glint/frontends/video/video_file.hpp"
+#endif
 
 namespace glint::cli {
 
 std::span<void (*const)(CLI::App&)> all_commands() {
-  static constexpr void (*kCommands[])(CLI::App&) = {add_info};
+  static constexpr void (*kCommands[])(CLI::App&) = {
+      add_track, add_simulate, add_points, add_bench, add_parity, add_info, add_config};
   return kCommands;
 }
 
@@ -36,6 +40,9 @@ int parse_error(const CLI::App& app, const CLI::ParseError& error) {
 }  // namespace
 
 int run(int argc, char** argv) {
+#ifdef GLINT_WITH_OPENCV
+  quiet_video_libraries();
+#endif
   CLI::App app(
       "Finds and follows targets that are too dim for any single frame (track before detect).",
       "glint");

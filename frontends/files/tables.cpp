@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/frontends/files/tables.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -85,11 +88,20 @@ void flush_output(std::ofstream& file, const std::string& path) {
   if (!file.flush()) throw std::runtime_error(path + ": cannot be written; is the disk full?");
 }
 
+std::string comment_lines(std::string_view config, std::string_view title) {
+  std::string text = fmt::format("## glint {}, {}\n", GLINT_VERSION, title);
+  while (!config.empty()) {
+    const std::string_view line = config.substr(0, config.find('\n'));
+    text += fmt::format("{}{}\n", line.empty() ? "#" : "# ", line);
+    config.remove_prefix(std::min(line.size() + 1, config.size()));
+  }
+  return text;
+}
+
 void write_truth(const std::string& path, std::span<const TruthPoint> truth,
-                 std::span<const std::string> comments) {
+                 std::string_view comments) {
   std::ofstream file = open_output(path);
-  for (const std::string& comment : comments) file << '#' << comment << '\n';
-  file << "frame,track_id,x,y,vx,vy,intensity\n";
+  file << comments << "frame,track_id,x,y,vx,vy,intensity\n";
   std::string row;
   for (const TruthPoint& p : truth) {
     row = std::to_string(p.frame) + ',' + std::to_string(p.track_id);

@@ -28,8 +28,12 @@ std::ofstream open_output(const std::string& path);
 /// Throws std::runtime_error if something could not be written.
 void flush_output(std::ofstream& file, const std::string& path);
 
-/// `comments` are lines without their #. Throws UsageError if the file cannot be written.
+/// The comments that a table begins with: "## glint <version>, <title>", then the configuration as
+/// TOML behind "# ", so that a program that strips one # a line has a configuration file.
+std::string comment_lines(std::string_view config, std::string_view title);
+
+/// Throws UsageError if the file cannot be written.
 void write_truth(const std::string& path, std::span<const TruthPoint> truth,
-                 std::span<const std::string> comments = {});
+                 std::string_view comments = {});
 
 }  // namespace glint

@@ -27,21 +27,12 @@ void append_cell(std::string& row, double value) {
   if (!std::isnan(value)) fmt::format_to(std::back_inserter(row), "{:.8g}", value);
 }
 
-/// Comments: "##" is a remark, "# " the configuration as TOML, so that a program that strips one #
-/// from each line has a configuration file.
 class CsvFormat : public TrackFormat {
  public:
   std::string header(const RunRecord& run, const std::vector<std::string>& modes) override {
-    std::string text = fmt::format(
-        "## glint {}, tracks of {}; to repeat the run: glint track INPUT --config THIS_FILE\n",
-        GLINT_VERSION, run.tracker);
-    for (std::string_view rest = run.config; !rest.empty();) {
-      const std::size_t end = std::min(rest.find('\n'), rest.size() - 1);
-      text += rest[0] == '\n' ? "#" : "# ";
-      text += rest.substr(0, end + 1);
-      rest.remove_prefix(end + 1);
-    }
-    if (text.back() != '\n') text += '\n';
+    std::string text =
+        comment_lines(run.config, "tracks of " + run.tracker +
+                                      "; to repeat the run: glint track INPUT --config THIS_FILE");
     text += "frame,time,track_id,status";
     for (const auto column : kValueNames) text.append(",").append(column);
     for (const auto& mode : modes) text += ",p_" + mode;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <memory>
+#include <string>
+
+#include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/cli/commands.hpp"
+#include "glint/frontends/cli/run_config.hpp"
+#include "glint/frontends/config/toml.hpp"
+
+namespace glint::cli {
+
+void add_config(CLI::App& app) {
+  auto tracker = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("config", "A tracker's whole configuration, as TOML");
+  command->add_option("TRACKER", *tracker, "name, see glint info")->required();
+  command->footer(
+      "Example:\n"
+      "  glint config smc-phd > my.toml; glint track clip.mp4 --config my.toml");
+  command->callback([tracker] {
+    const std::string name(find_tracker(*tracker).name);
+    auto all = all_sections();
+    apply_set("run.tracker=" + name, all);
+    const std::vector sections{section_named(all, "run"), section_named(all, "frames"),
+                               section_named(all, "trackers." + name)};
+    fmt::print("{}", write_toml(sections));
+  });
+}
+
+}  // namespace glint::cli

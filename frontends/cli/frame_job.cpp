@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/cli/frame_job.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "glint/engine/scenario/scenario.hpp"
+#include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/config/settings.hpp"
+#include "glint/frontends/files/noisy_source.hpp"
+#include "glint/frontends/files/open_source.hpp"
+#include "glint/kernels/prepare_frame/prepare_frame.hpp"
+
+namespace glint::cli {
+namespace {
+
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> list;
+  for (std::string word; stream >> word;) list.push_back(word);
+  return list;
+}
+
+/// A setting that decides which sections there are must come before those that stand in them.
+bool sets_tracker(const std::string& assignment) {
+  const std::string key = assignment.substr(0, assignment.find('='));
+  return key == "run.tracker" || key == "tracker";
+}
+
+std::vector<ConfigSection> used_sections(std::span<const ConfigSection> all,
+                                         const std::vector<std::string>& trackers,
+                                         const std::vector<std::string>& inputs,
+                                         const std::vector<std::string>& more) {
+  std::vector<std::string> names{"run", "frames"};
+  for (const auto& tracker : trackers) {
+    names.push_back("trackers." + std::string(find_tracker(tracker).name));
+  }
+  for (const auto& input : inputs) {
+    if (const auto scene = scene_name(input)) {
+      names.push_back("scenes." + std::string(find_scene(*scene).name));
+    }
+  }
+  names.insert(names.end(), more.begin(), more.end());
+  std::vector<ConfigSection> used;
+  for (const auto& name : names) used.push_back(section_named(all, name));
+  return used;
+}
+
+/// An option that is short for --set run.<key>=...
+void add_run_option(CLI::App& command, FrameOptions& options, const char* option, const char* key,
+                    const char* help) {
+  command.add_option_function<std::string>(
+      option, [&options, key](const std::string& v) { options.run.emplace_back(key, v); }, help);
+}
+
+Device make_device(const RunConfig& run) {
+  if (run.device == "egl") {
+    throw UsageError("device egl is not in this build; use auto, serial or tbb");
+  }
+  try {
+    return Device::named(run.device, run.threads);
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(e.what());
+  }
+}
+
+Image<std::uint8_t> read_mask(const std::string& path, const Device& device) {
+  SourceOptions options;
+  options.warn = warn;
+  const auto frame = open_source(std::span(&path, 1), options)->next();
+  if (!frame) throw UsageError(path + ": holds no image; give one of the frames' size");
+  Image<float> grey(frame->pixels.width, frame->pixels.height);
+  device.run<ToGrey>({.raw = frame->pixels, .grey = grey.view()});
+  Image<std::uint8_t> mask(grey.width(), grey.height());
+  for (int y = 0; y < grey.height(); ++y) {
+    for (int x = 0; x < grey.width(); ++x) mask.view()(x, y) = grey.view()(x, y) != 0 ? 1 : 0;
+  }
+  return mask;
+}
+
+}  // namespace
+
+void add_run_options(CLI::App& command, FrameOptions& options) {
+  command.add_option("--config", options.config,
+                     "TOML file, or a tracks.csv: the settings of the run that wrote it");
+  command.add_option("--set", options.sets, "key=value, e.g. frames.polarity=dark; repeatable")
+      ->allow_extra_args(false);
+  add_run_option(command, options, "--device", "device", "auto, serial or tbb [auto]");
+  add_run_option(command, options, "--threads", "threads", "0 = all of the machine's [0]");
+  add_run_option(command, options, "--seed", "seed", "of all random numbers [1]");
+  command.add_flag("--quiet", options.quiet, "no progress line, no summary");
+}
+
+void add_frame_options(CLI::App& command, FrameOptions& options) {
+  command
+      .add_option("INPUT", options.inputs,
+                  "video, images (folder, pattern like f_%04d.png, list, multi-page TIFF), FITS "
+                  "files or cubes, .npy cube, or scene:NAME")
+      ->required();
+  add_run_options(command, options);
+  add_run_option(command, options, "--fps", "fps",
+                 "frame rate, instead of the input's own (images: 1)");
+  add_run_option(command, options, "--add-noise", "add_noise",
+                 "sigma of Gaussian noise to add first [grey levels]");
+  add_run_option(command, options, "--mask", "mask",
+                 "image of the frames' size; pixels that are not 0 are ignored");
+}
+
+FrameJob settle(const FrameOptions& options, const std::vector<std::string>& more) {
+  std::vector<ConfigSection> all = all_sections();
+  if (!options.config.empty()) read_config(options.config, all);
+  for (const auto& [key, text] : options.run) apply_set("run." + key + '=' + text, all);
+  for (const auto& set : options.sets) {
+    if (sets_tracker(set)) apply_set(set, all);
+  }
+  const ConfigSection run = section_named(all, "run");
+  std::vector<std::string> trackers = words(run.as<RunConfig>().tracker);
+  auto used = used_sections(all, trackers, options.inputs, more);
+  for (const auto& set : options.sets) apply_set(set, used);
+  return {options.inputs, std::move(trackers), std::move(used), make_device(run.as<RunConfig>()),
+          options.quiet};
+}
+
+std::unique_ptr<Source> open_frames(const FrameJob& job) {
+  const RunConfig& run = job.run();
+  const auto seed = static_cast<std::uint64_t>(run.seed);
+  SourceOptions options;
+  options.seed = seed;
+  options.warn = warn;
+  if (run.fps > 0) options.frame_rate = run.fps;
+  ConfigSection scene;
+  if (const auto name = scene_name(job.inputs.front())) {
+    scene = section_named(job.sections, "scenes." + std::string(*name));
+    options.scene = &scene;
+  }
+  auto source = open_source(job.inputs, options);
+  if (run.add_noise == 0) return source;
+  return std::make_unique<NoisySource>(std::move(source), run.add_noise, seed, job.device);
+}
+
+FramePreparer make_preparer(const FrameJob& job) {
+  FramePreparer preparer(job.config<FramesConfig>("frames"), job.device);
+  const std::string& mask = job.run().mask;
+  if (!mask.empty()) preparer.set_mask(read_mask(mask, job.device));
+  return preparer;
+}
+
+}  // namespace glint::cli

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <memory>
+#include <utility>
+
+#include "glint/frontends/cli/points_file.hpp"
+
+namespace glint::cli {
+namespace {
+
+struct PointsOptions {
+  FrameOptions frames;
+  std::string out;
+};
+
+void find_all_points(const PointsOptions& options) {
+  const FrameJob job = settle(options.frames, {"points"});
+  const auto source = open_frames(job);
+  PointsFile points(options.out, job);
+  const std::int64_t frames = run_sinks(job, *source, {&points});
+  if (job.quiet) return;
+  fmt::print("{} frames, {} points, written to {}\n", frames, points.points(), options.out);
+}
+
+}  // namespace
+
+void add_points(CLI::App& app) {
+  auto options = std::make_shared<PointsOptions>();
+  CLI::App* command = app.add_subcommand(
+      "points", "Points of single frames: local maxima of the matched filter (the baseline)");
+  add_frame_options(*command, options->frames);
+  command->add_option("--out", options->out, "points.csv")->required();
+  const auto setting = [&](const char* option, const char* key, const char* help) {
+    command->add_option_function<std::string>(
+        option,
+        [options, key](const std::string& v) {
+          options->frames.sets.push_back(std::string(key) + '=' + v);
+        },
+        help);
+  };
+  setting("--threshold", "points.threshold", "least value of the matched filter [sigma]");
+  setting("--psf-sigma", "points.psf_sigma", "point spread of the matched filter [px]");
+  command->footer(
+      "Example: how well does the best threshold do beside a tracker?\n"
+      "  glint points clip.mp4 --add-noise 53 --out points.csv\n"
+      "  glint evaluate --truth truth.csv --tracks tracks.csv --baseline points.csv");
+  command->callback([options] { find_all_points(*options); });
+}
+
+}  // namespace glint::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/cli/points_file.hpp"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "glint/frontends/files/tables.hpp"
+
+namespace glint::cli {
+
+PointsFile::PointsFile(std::string path, const FrameJob& job)
+    : path_(std::move(path)),
+      config_(job.config<PointsConfig>("points")),
+      filter_(config_.psf_sigma, job.device),
+      file_(open_output(path_)) {
+  file_ << comment_lines(bare_toml(job.sections), "points of single frames")
+        << "frame,time,x,y,amplitude\n";
+}
+
+void PointsFile::take(const ScanResult& result) {
+  const Scan& scan = result.scan;
+  for (const Point& p : filter_.points(scan.whitened.view(), config_.threshold, config_.radius)) {
+    file_ << fmt::format("{},{:.9g},{:.7g},{:.7g},{:.6g}\n", scan.frame, scan.time, p.x, p.y,
+                         p.amplitude);
+    ++count_;
+  }
+  flush_output(file_, path_);
+}
+
+std::int64_t run_sinks(const FrameJob& job, Source& source, const std::vector<Sink*>& sinks) {
+  Scheduler scheduler(job.device, make_preparer(job));
+  Progress progress(source.frame_count(), job.quiet);
+  Interrupt interrupt;
+  for (Sink* sink : sinks) scheduler.add(*sink);
+  scheduler.add(progress);
+  scheduler.add(interrupt);
+  const std::int64_t frames = scheduler.run(source, interrupt.stop());
+  if (!interrupt.happened()) return frames;
+  throw std::runtime_error(
+      fmt::format("interrupted after {} frames; what was done so far is written", frames));
+}
+
+}  // namespace glint::cli

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/cli/run_config.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "glint/engine/frame_preparer.hpp"
+#include "glint/engine/scenario/scenario.hpp"
+#include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/config/toml.hpp"
+
+namespace glint::cli {
+namespace {
+
+/// The configuration in a track file's header; every other line is left empty, so that errors name
+/// the right one.
+std::string config_of_track_file(std::ifstream& file) {
+  std::string text;
+  for (std::string line; std::getline(file, line); text += '\n') {
+    if (line.starts_with('#')) text += line.substr(1);
+  }
+  return text;
+}
+
+}  // namespace
+
+void describe(FieldList& list, RunConfig& c) {
+  constexpr int kMax = std::numeric_limits<int>::max();
+  list("tracker", c.tracker, {}, "names of the trackers, separated by spaces");
+  list("device", c.device, {}, "where kernels run: auto, serial or tbb");
+  list("threads", c.threads, 0, 1024, "", "0 = all of the machine's");
+  list("seed", c.seed, 0, kMax, "", "of all random numbers");
+  list("add_noise", c.add_noise, 0, 1e6, "grey levels",
+       "sigma of white Gaussian noise added to every frame, for trials");
+  list("fps", c.fps, 0, 1e6, "frames/s", "frame rate; 0 = the input's own");
+  list("mask", c.mask, {}, "image of the frames' size; pixels that are not 0 are ignored");
+}
+
+void describe(FieldList& list, PointsConfig& c) {
+  list("psf_sigma", c.psf_sigma, 0.1, 2.6, "px", "point spread of the matched filter");
+  list("threshold", c.threshold, -100, 1000, "sigma", "least value of the matched filter");
+  list("radius", c.radius, 1, 100, "px", "a point is the maximum of this neighbourhood");
+}
+
+std::vector<ConfigSection> all_sections() {
+  std::vector<ConfigSection> sections{ConfigSection::of<RunConfig>("run"),
+                                      ConfigSection::of<FramesConfig>("frames"),
+                                      ConfigSection::of<PointsConfig>("points")};
+  for (const TrackerEntry& tracker : all_trackers()) sections.push_back(tracker.config());
+  for (const SceneEntry& scene : all_scenes()) sections.push_back(scene.config());
+  return sections;
+}
+
+ConfigSection section_named(std::span<const ConfigSection> sections, const std::string& name) {
+  const auto found = std::ranges::find(sections, name, &ConfigSection::name);
+  if (found == sections.end()) throw std::logic_error("no section " + name);
+  return *found;
+}
+
+void read_config(const std::string& path, std::span<ConfigSection> sections) {
+  std::ifstream file(path);
+  if (file.get() != '#' || file.get() != '#') return read_toml(path, sections);
+  file.seekg(0);
+  parse_toml(config_of_track_file(file), path, sections);
+}
+
+std::string bare_toml(std::span<const ConfigSection> sections) {
+  std::string text;
+  for (const ConfigSection& section : sections) {
+    text += '[' + section.name() + "]\n";
+    for (const ConfigField& field : section.fields()) {
+      text += field.key + " = " + to_toml(field) + '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace glint::cli

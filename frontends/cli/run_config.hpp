@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "glint/engine/config.hpp"
+
+namespace glint::cli {
+
+/// What a run is told besides its inputs and the settings of frames and trackers; the file section
+/// [run]. Options such as --seed are short for --set run.seed=...
+struct RunConfig {
+  std::string tracker;  ///< names, separated by spaces
+  std::string device = "auto";
+  int threads = 0;
+  int seed = 1;
+  double add_noise = 0;  ///< [grey levels]
+  double fps = 0;        ///< [1/s]; 0 = the input's own
+  std::string mask;
+};
+void describe(FieldList& list, RunConfig& config);
+
+/// How points are found in single frames; the file section [points].
+struct PointsConfig {
+  double psf_sigma = 1.0;  ///< [px]
+  double threshold = 2.0;  ///< [sigma] of the matched filter
+  int radius = 1;          ///< [px]
+};
+void describe(FieldList& list, PointsConfig& config);
+
+/// All sections that a configuration file may have: run, frames, points, every tracker, every
+/// scene.
+std::vector<ConfigSection> all_sections();
+
+/// The section of that name. Copies of a section share its settings.
+ConfigSection section_named(std::span<const ConfigSection> sections, const std::string& name);
+
+/// Sets what a file says: TOML, or a track file, whose header holds the configuration of the run
+/// that wrote it. Throws as read_toml() does.
+void read_config(const std::string& path, std::span<ConfigSection> sections);
+
+/// Settings as TOML without help texts.
+std::string bare_toml(std::span<const ConfigSection> sections);
+
+}  // namespace glint::cli

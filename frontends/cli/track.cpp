@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/cli/frame_job.hpp"
+#include "glint/frontends/cli/track_outputs.hpp"
+
+namespace glint::cli {
+namespace {
+
+struct TrackOptions {
+  FrameOptions frames;
+  OutputOptions outputs;
+  std::vector<std::string> trackers;
+};
+
+std::string tracker_names() {
+  std::string names;
+  for (const TrackerEntry& t : all_trackers()) {
+    names += (names.empty() ? "" : ", ") + std::string(t.name);
+  }
+  return names;
+}
+
+/// How many tracks were ever confirmed, and how many never.
+std::pair<int, int> count_tracks(const TrackLog& log) {
+  std::map<std::int64_t, bool> confirmed;
+  for (const TrackPoint& p : log.online()) {
+    confirmed[p.track_id] |= p.status == TrackStatus::confirmed;
+  }
+  int yes = 0;
+  for (const auto& [id, is] : confirmed) yes += is;
+  return {yes, static_cast<int>(confirmed.size()) - yes};
+}
+
+std::string shares(const std::vector<StageTime>& stages) {
+  double total = 0;
+  for (const StageTime& s : stages) total += s.seconds;
+  std::string text;
+  for (const StageTime& s : stages) {
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", s.stage,
+                        total > 0 ? 100 * s.seconds / total : 0);
+  }
+  return text;
+}
+
+void print_summary(const FrameJob& job, const Scheduler& scheduler, double seconds,
+                   double frame_rate, const std::vector<std::string>& written) {
+  const std::int64_t frames = scheduler.frames();
+  const double rate = seconds > 0 ? static_cast<double>(frames) / seconds : 0;
+  fmt::print("frames     {} in {:.2f} s: {:.0f} frames/s, {:.3g} x the source's {:.4g}\n", frames,
+             seconds, rate, rate / frame_rate, frame_rate);
+  fmt::print("device     {}, seed {}\n", job.device.description(), job.run().seed);
+  for (std::size_t i = 0; i < job.trackers.size(); ++i) {
+    const auto [confirmed, tentative] = count_tracks(*scheduler.logs()[i]);
+    fmt::print("tracks     {}: {} confirmed, {} never more than tentative\n", job.trackers[i],
+               confirmed, tentative);
+    for (const auto& note : scheduler.tracker(i).notes()) fmt::print("estimated  {}\n", note);
+  }
+  for (const auto& note : scheduler.preparer().notes()) fmt::print("estimated  {}\n", note);
+  fmt::print("stages     {}\n", shares(scheduler.stage_times()));
+  fmt::print("written    {}\n", written.empty() ? "nothing; --out tracks.csv keeps the tracks"
+                                                : fmt::format("{}", fmt::join(written, ", ")));
+}
+
+void track(TrackOptions options) {
+  if (!options.trackers.empty()) {
+    options.frames.run.emplace_back("tracker", fmt::format("{}", fmt::join(options.trackers, " ")));
+  }
+  const FrameJob job = settle(options.frames);
+  if (job.trackers.empty()) throw UsageError("give --tracker NAME; known are " + tracker_names());
+  const auto source = open_frames(job);
+  Scheduler scheduler(job.device, make_preparer(job));
+  for (const std::string& name : job.trackers) {
+    const ConfigSection section = section_named(job.sections, "trackers." + name);
+    scheduler.add(
+        find_tracker(name).make(section, job.device, static_cast<std::uint64_t>(job.run().seed)),
+        name);
+  }
+  TrackOutputs outputs(options.outputs, job, source->frame_rate(), scheduler);
+  Interrupt interrupt;
+  scheduler.add(outputs);
+  scheduler.add(interrupt);
+  const double start = now();
+  try {
+    Progress progress(source->frame_count(), job.quiet);
+    scheduler.add(progress);
+    scheduler.run(*source, interrupt.stop());
+  } catch (...) {
+    outputs.finish();
+    throw;
+  }
+  outputs.finish();
+  if (!job.quiet) {
+    print_summary(job, scheduler, now() - start, source->frame_rate(), outputs.paths());
+  }
+  if (interrupt.happened()) {
+    throw std::runtime_error(fmt::format(
+        "interrupted after {} frames; what was tracked so far is written", scheduler.frames()));
+  }
+}
+
+}  // namespace
+
+void add_track(CLI::App& app) {
+  auto options = std::make_shared<TrackOptions>();
+  CLI::App* command = app.add_subcommand("track", "Follow targets through frames");
+  add_frame_options(*command, options->frames);
+  command
+      ->add_option("--tracker", options->trackers,
+                   "which tracker (" + tracker_names() + "); repeatable")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--out", options->outputs.tracks,
+                   "tracks as .csv, .jsonl or .mot.txt (confirmed only); repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--overlay", options->outputs.overlay,
+                      "video of the frames with the tracks, .mp4, .avi or .mkv");
+  command->add_option("--picture", options->outputs.picture,
+                      "one such frame beside the raw one, .png");
+  command->add_flag("--revised", options->outputs.revised,
+                    "write tracks as revised later, not as reported at the time");
+  command->footer(
+      "Examples:\n"
+      "  glint track clip.mp4 --tracker smc-phd --out tracks.csv --overlay overlay.mp4\n"
+      "  glint track frames/f_%04d.png --fps 50 --tracker smc-phd --set frames.polarity=dark\n"
+      "  glint track clip.mp4 --tracker smc-phd --add-noise 53 --seed 2 --out noisy.csv\n"
+      "  glint track clip.mp4 --config tracks.csv      repeats the run that wrote tracks.csv\n"
+      "All settings: glint config TRACKER");
+  command->callback([options] { track(*options); });
+}
+
+}  // namespace glint::cli

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/cli/track_outputs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace glint::cli {
+namespace {
+
+/// "out/tracks.csv" to "out/tracks.smc-phd.csv"
+std::string path_for(const std::string& path, const std::string& tracker) {
+  const std::size_t name = path.find_last_of('/') + 1;  // npos + 1 = 0
+  const std::size_t dot = std::min(path.find('.', name + 1), path.size());
+  return path.substr(0, dot) + '.' + tracker + path.substr(dot);
+}
+
+std::unique_ptr<ClosingSink> open_overlay(const std::string& path, double frame_rate) {
+#ifdef GLINT_WITH_OPENCV
+  return overlay_video(path, frame_rate, warn);
+#else
+  (void)frame_rate;
+  throw UsageError(path + ": this glint was built without OpenCV; leave --overlay out");
+#endif
+}
+
+std::unique_ptr<ClosingSink> open_picture(const std::string& path) {
+#ifdef GLINT_WITH_OPENCV
+  return overlay_picture(path);
+#else
+  throw UsageError(path + ": this glint was built without OpenCV; leave --picture out");
+#endif
+}
+
+}  // namespace
+
+TrackOutputs::TrackOutputs(const OutputOptions& options, const FrameJob& job, double frame_rate,
+                           const Scheduler& scheduler)
+    : scheduler_(scheduler) {
+  for (const std::string& path : options.tracks) {
+    for (std::size_t i = 0; i < job.trackers.size(); ++i) {
+      const std::string& tracker = job.trackers[i];
+      const std::string file = job.trackers.size() > 1 ? path_for(path, tracker) : path;
+      tracks_.push_back(
+          {i, file, TrackFile(file, {tracker, bare_toml(job.sections)}, options.revised)});
+    }
+  }
+  if (!options.overlay.empty()) pictures_.push_back(open_overlay(options.overlay, frame_rate));
+  if (!options.picture.empty()) pictures_.push_back(open_picture(options.picture));
+}
+
+void TrackOutputs::take(const ScanResult& result) {
+  // A tracker names its modes at its first step, which lies behind; from then on they stand still.
+  for (Track& track : tracks_) {
+    track.file.write(result.reported[track.tracker],
+                     scheduler_.logs()[track.tracker]->mode_names());
+  }
+  for (const auto& picture : pictures_) picture->take(result);
+}
+
+void TrackOutputs::finish() {
+  for (Track& track : tracks_) {
+    track.file.close(*scheduler_.logs()[track.tracker], notes(scheduler_, track.tracker));
+  }
+  for (const auto& picture : pictures_) picture->finish();
+}
+
+std::vector<std::string> TrackOutputs::paths() const {
+  std::vector<std::string> paths;
+  for (const Track& track : tracks_) paths.push_back(track.path);
+  for (const auto& picture : pictures_) paths.push_back(picture->path());
+  return paths;
+}
+
+std::vector<std::string> notes(const Scheduler& scheduler, std::size_t i) {
+  std::vector<std::string> all = scheduler.preparer().notes();
+  for (std::string& note : scheduler.tracker(i).notes()) all.push_back(std::move(note));
+  return all;
+}
+
+}  // namespace glint::cli

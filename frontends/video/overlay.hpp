@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <memory>
+#include <string>
+
+#include "glint/engine/scheduler.hpp"
+#include "glint/frontends/usage_error.hpp"
+
+namespace glint {
+
+/// A sink with something to do at the end. finish() is also called after a failed run.
+class ClosingSink : public Sink {
+ public:
+  virtual void finish() = 0;
+  virtual std::string path() const = 0;  ///< of what was written
+};
+
+/// Writes a video of the frames with the tracks drawn on them. If no H.264 or MPEG-4 encoder is
+/// there, motion JPEG is written into an .avi of the same name, with a warning. Throws UsageError
+/// if the path cannot be written or does not end in .mp4, .avi or .mkv.
+std::unique_ptr<ClosingSink> overlay_video(const std::string& path, double frame_rate,
+                                           const Warn& warn);
+
+/// Writes one picture at the end: left the raw frame, right the same with tracks; of the frame with
+/// the most confirmed tracks, the last such one. Throws UsageError if the path cannot be written.
+std::unique_ptr<ClosingSink> overlay_picture(const std::string& path);
+
+}  // namespace glint
