@@ -234,7 +234,20 @@ std::size_t Births::draw_two_frame(std::int64_t frame, double step, const CellWo
        .log_ratio = log_ratio_,
        .jitter = static_cast<float>(config_.jitter),
        .key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth_jitter)});
-  for (std::size_t i = 0; i < count; ++i) p.weight[at + i] *= math::exp(log_ratio_[i]);
+  // Births were born a frame ago and share their pixels there like anyone: P-PHD (14) for them too.
+  const std::span<float> predicted = std::span(p.weight).subspan(at, count);
+  updated_.resize(count);
+  device_.run<CellWeights>({.width = width,
+                            .height = height,
+                            .half_width = spread_.half_width,
+                            .clutter = 1,
+                            .x = x_before_,
+                            .y = y_before_,
+                            .predicted = predicted,
+                            .log_ratio = log_ratio_,
+                            .updated = updated_,
+                            .workspace = &shares_});
+  std::copy(updated_.begin(), updated_.end(), predicted.begin());
   return count;
 }
 

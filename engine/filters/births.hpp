@@ -66,7 +66,8 @@ class Births {
   BirthFrame now_, before_;
   Image<float> map_;
   std::vector<std::uint32_t> cells_;
-  AlignedVector<float> x_before_, y_before_, log_ratio_;
+  AlignedVector<float> x_before_, y_before_, log_ratio_, updated_;
+  CellWorkspace shares_;
 };
 
 }  // namespace glint

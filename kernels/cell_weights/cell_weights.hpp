@@ -59,9 +59,9 @@ struct CellWeights {
     float clutter = 1;                 ///< lambda, in likelihood-ratio units
     std::span<const float> x, y;       ///< [px]
     std::span<const float> predicted;  ///< w_{k|k-1}
-    std::span<const float> log_ratio;  ///< at most `max_log_ratio` is used; -inf means weight 0
-    float max_log_ratio = 60;
-    std::span<float> updated;            ///< written: w_k
+    std::span<const float>
+        log_ratio;             ///< l = exp(bounded_log_ratio(.)); -inf and NaN mean weight 0
+    std::span<float> updated;  ///< written: w_k
     CellWorkspace* workspace = nullptr;  ///< runs, M, B are left here for the caller
   };
   static void serial(const Args& args);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/kernels/cell_weights/lanes.hpp"
 
+#include "glint/kernels/cell_weights/bound.hpp"
 #include "glint/kernels/core/math.hpp"
 
 namespace glint::GLINT_LANES {
@@ -8,8 +9,8 @@ namespace {
 
 using cell_weights::kRowShift;
 
-void weigh(const cell_weights::Particles& particles, int width, int height, float max_log_ratio,
-           std::size_t begin, std::size_t end) {
+void weigh(const cell_weights::Particles& particles, int width, int height, std::size_t begin,
+           std::size_t end) {
   const float* __restrict x = particles.x;
   const float* __restrict y = particles.y;
   const float* __restrict predicted = particles.predicted;
@@ -26,8 +27,8 @@ void weigh(const cell_weights::Particles& particles, int width, int height, floa
     const std::uint32_t packed = static_cast<std::uint32_t>(row_index) << kRowShift |
                                  static_cast<std::uint32_t>(column_index);
     place[i] = inside ? packed : outside;
-    const float ratio = log_ratio[i], bounded = ratio < max_log_ratio ? ratio : max_log_ratio;
-    const float product = predicted[i] * math::exp(bounded);
+    const float ratio = log_ratio[i];
+    const float product = predicted[i] * math::exp(bounded_log_ratio(ratio));
     weighted[i] = ratio == ratio ? product : 0.0f;
   }
 }

@@ -20,8 +20,8 @@ struct Particles {
 
 struct CellWeightsLanes {
   /// Finds place and w l of the particles [begin, end).
-  void (*weigh)(const cell_weights::Particles& particles, int width, int height,
-                float max_log_ratio, std::size_t begin, std::size_t end);
+  void (*weigh)(const cell_weights::Particles& particles, int width, int height, std::size_t begin,
+                std::size_t end);
 };
 
 GLINT_DECLARE_LANES(CellWeightsLanes, cell_weights_lanes)

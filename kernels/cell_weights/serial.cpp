@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/kernels/cell_weights/bound.hpp"
 #include "glint/kernels/cell_weights/cells.hpp"
 
 namespace glint {
@@ -46,10 +47,17 @@ void find_runs(CellWorkspace& space) {
   runs.first.push_back(static_cast<std::uint32_t>(runs.order.size()));
 }
 
+// bounded_log_ratio() in double.
+double bounded(double log_ratio) {
+  constexpr double kExact = kExactLogRatio;
+  if (log_ratio <= kExact) return log_ratio;
+  return std::min<double>(kExact + kExact * std::log(log_ratio / kExact), kMaxLogRatio);
+}
+
 double weighted(const Args& args, std::size_t i) {
   const double log_ratio = args.log_ratio[i];
   if (std::isnan(log_ratio)) return 0;
-  return args.predicted[i] * std::exp(std::min<double>(log_ratio, args.max_log_ratio));
+  return args.predicted[i] * std::exp(bounded(log_ratio));
 }
 
 // M = sum of w l over a cell; B = sum of M over the window that the likelihood uses.

@@ -51,8 +51,7 @@ void weigh(const CellWeights::Args& args, const Passes& passes, CellWorkspace& s
   const CellWeightsLanes& lanes = cell_weights_lanes(passes.workers.isa());
   const Tiles tiles{n, kParticleTile};
   passes.each(tiles.tiles(), [&](std::size_t t) {
-    lanes.weigh(particles, args.width, args.height, args.max_log_ratio, tiles.begin(t),
-                tiles.end(t));
+    lanes.weigh(particles, args.width, args.height, tiles.begin(t), tiles.end(t));
   });
 }
 
