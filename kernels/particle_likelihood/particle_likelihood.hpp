@@ -24,7 +24,7 @@ struct ParticleLikelihood {
 
   struct Args {
     FrameView frame;  ///< z, unit noise; has an Image's zero margin around it
-    PointSpread spread;
+    PointSpread spread = {};
     std::span<const float> x, y;       ///< [px]
     std::span<const float> intensity;  ///< [noise sigmas]
     std::span<float> log_ratio;        ///< written; all spans have one length

@@ -31,7 +31,7 @@ struct PixelLikelihood {
   struct Args {
     std::variant<ImageView<const float>, ImageView<const std::uint16_t>> frame;
     float offset = 0, scale = 1;  ///< z = (pixel - offset) * scale has unit noise
-    PointSpread spread;
+    PointSpread spread = {};
     float intensity = 1;               ///< [noise sigmas], whole target
     float threshold = 0;               ///< a hit is map > threshold
     ImageView<float> map = {};         ///< written if not empty; size of the frame
