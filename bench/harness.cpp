@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/bench/harness.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,7 +12,7 @@
 namespace glint::bench {
 namespace {
 
-constexpr double kSampleSeconds = 4e-3;
+constexpr double kSampleSeconds = 3e-3;
 constexpr int kMaxTries = 4;
 constexpr int kMinRounds = 3;
 
@@ -44,6 +46,13 @@ class Probe {
   Workers pair_{2};
 };
 
+// How often the system took a core away from us for other work.
+long preemptions() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_nivcsw;
+}
+
 struct Samples {
   int calls = 1;  // a sample, so that it is long enough for the clock
   std::vector<double> clean, disturbed;
@@ -56,10 +65,12 @@ double seconds_a_call(const Case& c, int calls) {
 }
 
 void sample(const Case& c, Probe& probe, Samples& samples) {
+  const auto cores_free = [&] { return c.threads < 2 || probe.two_cores_free(); };
   for (int attempt = 0; attempt < kMaxTries; ++attempt) {
-    bool clean = c.threads < 2 || probe.two_cores_free();
+    bool clean = cores_free();
+    const long before = preemptions();
     const double seconds = seconds_a_call(c, samples.calls);
-    clean = clean && (c.threads < 2 || probe.two_cores_free());
+    clean = clean && preemptions() == before && cores_free();
     (clean ? samples.clean : samples.disturbed).push_back(seconds);
     if (clean) return;
   }
@@ -74,10 +85,9 @@ double median(std::vector<double> values) {
 Timing timing(const Case& c, const Samples& samples) {
   const bool clean = !samples.clean.empty();
   const auto& used = clean ? samples.clean : samples.disturbed;
-  Timing t{c.name, c.threads, median(used), 0, static_cast<int>(used.size()), 0};
-  t.rate = c.units / t.seconds;
-  t.disturbed = clean ? 0 : t.samples;
-  return t;
+  const double seconds = clean ? median(used) : *std::min_element(used.begin(), used.end());
+  const int count = static_cast<int>(used.size());
+  return {c.name, c.threads, seconds, c.units / seconds, count, clean ? 0 : count};
 }
 
 std::vector<Timing> time_all(const std::vector<Case>& cases, const Budget& budget) {

@@ -29,7 +29,7 @@ struct Timing {
   double seconds = 0;  ///< median of a call
   double rate = 0;     ///< [units/s]
   int samples = 0;
-  int disturbed = 0;  ///< of `samples`: taken while not all needed cores were free
+  int disturbed = 0;  ///< all of `samples`, if none was free of other work
 };
 
 /// A comparison of cases of one suite, so of things measured in the same run.
@@ -91,9 +91,10 @@ struct Budget {
   double seconds = 12;
 };
 
-/// Runs the cases round-robin, so that all see the same weather, and takes medians. A sample of two
-/// threads counts as undisturbed if both cores were free before and after it; it is repeated up to
-/// three times to get one, and disturbed samples are used only if there are no others.
+/// Runs the cases round-robin, so that all see the same weather, and takes medians. A sample counts
+/// if the system never took a core from it and, for two threads, if two cores were free before and
+/// after it; it is repeated up to three times to get one. Where none came out so, the fastest of
+/// the disturbed ones has to do, and is marked as such.
 Result measure(const Suite& suite, const Budget& budget);
 
 }  // namespace glint::bench

@@ -40,7 +40,7 @@ struct Cells {
 
 Suite cell_weights_clouds(FrameSize size) {
   Suite suite("cell_weights: 1e6 around 50 targets", "particle");
-  constexpr std::size_t kCount = 1000000, kFew = 100000;
+  constexpr std::size_t kCount = 1000000, kFew = 20000;
   const auto cells = std::make_shared<Cells>(size, kCount);
   suite.add_threads("glint", kCount,
                     [cells](const Device& device) { device.run<CellWeights>(cells->args()); });

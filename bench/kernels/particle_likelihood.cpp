@@ -50,7 +50,7 @@ Suite particle_likelihood_clouds(FrameSize size) {
     const Particles& p = scene->particles;
     combine(device.workers(), p.x, p.y, p.intensity, scene->log_ratio);
   });
-  constexpr std::size_t kFew = 50000;
+  constexpr std::size_t kFew = 4000;
   suite.add({"12 erf", 1, kFew, [scene] {
                erf_particle_likelihood(scene->frame, kSigma, scene->particles, kFew,
                                        scene->log_ratio);

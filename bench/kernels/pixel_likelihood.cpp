@@ -40,13 +40,13 @@ std::function<void(const Device&)> kernel(std::shared_ptr<Scene> scene) {
 
 // The scalar double reference, on a frame small enough to wait for.
 Case reference(const char* name) {
-  const FrameSize size{512, 512};
+  const FrameSize size{128, 128};
   const auto scene = std::make_shared<Scene>(size);
   return {name, 1, size.pixels(), [scene] { PixelLikelihood::serial(scene->args()); }};
 }
 
 Case naive() {
-  const FrameSize size{1024, 1024};
+  const FrameSize size{256, 256};
   const auto scene = std::make_shared<Scene>(size);
   return {"naive", 1, size.pixels(), [scene] { naive_pixel_likelihood(scene->args()); }};
 }

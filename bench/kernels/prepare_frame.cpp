@@ -59,7 +59,7 @@ Suite prepare_frames(FrameSize size) {
       suite.add(stream(text(s) + " x" + std::to_string(threads), s, Device::tbb(threads), threads));
     }
   }
-  suite.add(stream("serial", clip, Device::serial(), 1));
+  suite.add(stream("serial", {96, 80}, Device::serial(), 1));
   const auto raw = std::make_shared<Image<std::uint16_t>>(sensor_frame(size.width, size.height));
   const auto grey = std::make_shared<Image<float>>(size.width, size.height);
   suite.add_threads("limit: u16 to float", size.pixels(), [raw, grey](const Device& device) {

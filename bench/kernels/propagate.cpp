@@ -48,7 +48,7 @@ Suite propagate_constant_velocity() {
       scale_in_place(device.workers(), *array);
     }
   });
-  constexpr std::size_t kFew = std::size_t{1} << 17;
+  constexpr std::size_t kFew = std::size_t{1} << 14;
   suite.add(
       {"std", 1, kFew, [particles] { std_propagate(*particles, kFew, kNoise, kIntensityNoise); }});
   suite.add({"serial", 1, kFew, [particles] { Propagate::serial(args(*particles, kFew)); }});
