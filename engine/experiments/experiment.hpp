@@ -33,6 +33,7 @@ struct ExperimentRow {
 
 /// One value over frames, mean over runs.
 struct Curve {
+  std::string level;  ///< what conditions are compared at: "10 dB"
   std::string condition, metric;
   std::vector<double> frame, value;
 };

@@ -103,6 +103,8 @@ constexpr Figure kFigures[] = {
     {"n, frames 15-24", late_expected, false, &PhdCondition::expected},
 };
 
+std::string level_name(std::size_t level) { return std::to_string(kPhdSnr[level]) + " dB"; }
+
 void add_rows(const PhdCondition& condition, std::size_t level, std::span<const Run> runs,
               ExperimentResult& result) {
   for (const Figure& figure : kFigures) {
@@ -111,7 +113,7 @@ void add_rows(const PhdCondition& condition, std::size_t level, std::span<const 
     for (const Run& run : runs) values.push_back(figure.of(run));
     const Summary summary = summarise(values);
     ExperimentRow row;
-    row.name = condition.name + ", " + std::to_string(kPhdSnr[level]) + " dB";
+    row.name = condition.name + ", " + level_name(level);
     row.metric = figure.metric;
     row.ours = summary.mean, row.spread = summary.spread;
     if (figure.bands) row.band = (condition.*figure.bands)[level];
@@ -122,8 +124,9 @@ void add_rows(const PhdCondition& condition, std::size_t level, std::span<const 
 /// OSPA and n are means over runs, RMSE is P-PHD (38) over the runs that see the target.
 void add_curves(const PhdCondition& condition, std::size_t level, std::span<const Run> runs,
                 ExperimentResult& result) {
-  const std::string name = condition.name + ", " + std::to_string(kPhdSnr[level]) + " dB";
-  Curve ospa{name, "ospa", {}, {}}, rmse{name, "rmse", {}, {}}, expected{name, "n", {}, {}};
+  Curve ospa{level_name(level), condition.name, "ospa", {}, {}};
+  Curve rmse{level_name(level), condition.name, "rmse", {}, {}};
+  Curve expected{level_name(level), condition.name, "n", {}, {}};
   const auto mean = [&](const auto& value) {
     std::vector<double> values;
     for (const Run& run : runs) values.push_back(value(run));

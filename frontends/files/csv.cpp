@@ -39,16 +39,26 @@ void split(std::string_view line, std::vector<std::string_view>& cells) {
   }
 }
 
+/// Where a column stands under any of its names, "one or another".
+std::size_t locate(std::span<const std::string_view> header, std::string_view names) {
+  constexpr std::string_view kOr = " or ";
+  while (true) {
+    const std::size_t end = names.find(kOr);
+    const auto found = std::ranges::find(header, names.substr(0, end));
+    if (found != header.end()) return static_cast<std::size_t>(found - header.begin());
+    if (end == std::string_view::npos) return kAbsent;
+    names.remove_prefix(end + kOr.size());
+  }
+}
+
 /// Where each wanted column stands; optional ones that are not there are kAbsent.
 std::vector<std::size_t> locate(const std::string& path, std::span<const std::string_view> header,
                                 std::span<const std::string_view> columns, std::size_t required) {
   std::vector<std::size_t> at;
   std::vector<std::string_view> missing;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const auto found = std::ranges::find(header, columns[i]);
-    const bool there = found != header.end();
-    at.push_back(there ? static_cast<std::size_t>(found - header.begin()) : kAbsent);
-    if (!there && i < required) missing.push_back(columns[i]);
+    at.push_back(locate(header, columns[i]));
+    if (at.back() == kAbsent && i < required) missing.push_back(columns[i]);
   }
   if (missing.empty()) return at;
   throw std::runtime_error(

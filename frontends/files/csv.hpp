@@ -31,9 +31,9 @@ class CsvRow {
 };
 
 /// Calls f for every row of a CSV file with a header line. Columns are found by name; those not
-/// asked for are passed over. Lines that begin with # are comments. Throws UsageError if the file
-/// cannot be read, std::runtime_error that names missing columns, or the file and line of a row
-/// with too few cells.
+/// asked for are passed over. "x or cx" takes either name, the first if both are there. Lines that
+/// begin with # are comments. Throws UsageError if the file cannot be read, std::runtime_error that
+/// names missing columns, or the file and line of a row with too few cells.
 void read_csv(const std::string& path, std::span<const std::string_view> required,
               std::span<const std::string_view> optional,
               const std::function<void(const CsvRow&)>& f);

@@ -59,7 +59,8 @@ std::vector<TrackPoint> read_tracks(const std::string& path) {
 }
 
 std::vector<TruthPoint> read_truth(const std::string& path) {
-  static constexpr std::array<std::string_view, 4> kRequired{"frame", "track_id", "x", "y"};
+  static constexpr std::array<std::string_view, 4> kRequired{
+      "frame or frame0", "track_id or linked_id", "x or cx", "y or cy"};
   static constexpr std::array<std::string_view, 3> kOptional{"vx", "vy", "intensity"};
   std::vector<TruthPoint> points;
   read_csv(path, kRequired, kOptional, [&](const CsvRow& row) {

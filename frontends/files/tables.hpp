@@ -18,7 +18,8 @@ std::string_view name(TrackStatus status);
 /// and takes status (confirmed if there is none), time, vx, vy, intensity, existence, var_x, cov_xy
 /// and var_y. Model probabilities are passed over.
 std::vector<TrackPoint> read_tracks(const std::string& path);
-/// Needs frame, track_id, x, y; takes vx, vy, intensity.
+/// Needs frame, track_id, x, y; takes vx, vy, intensity. Tables of labelled boxes do as they are:
+/// frame0, linked_id, cx, cy are other names of the first four.
 std::vector<TruthPoint> read_truth(const std::string& path);
 /// Needs frame, x, y, amplitude.
 std::vector<Detection> read_points(const std::string& path);

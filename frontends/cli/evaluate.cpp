@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "glint/engine/metrics/evaluation.hpp"
+#include "glint/frontends/cli/commands.hpp"
+#include "glint/frontends/files/tables.hpp"
+
+namespace glint::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Request {
+  std::string truth, tracks, baseline;
+  EvaluationOptions options;
+  bool json = false;
+};
+
+struct Report {
+  Evaluation scores;
+  std::optional<Baseline> baseline;
+};
+
+Json number(double value) { return std::isnan(value) ? Json() : Json(value); }
+
+template <class Part>
+Json per_frame(const std::vector<Part>& parts) {
+  Json list = Json::array();
+  for (const Part& part : parts) list.push_back(number(part.distance));
+  return list;
+}
+
+Json per_truth(const Evaluation& e, double TruthScore::*value) {
+  Json list = Json::object();
+  for (const auto& [id, score] : e.truths) list[std::to_string(id)] = number(score.*value);
+  return list;
+}
+
+/// A mean over no frames is undefined.
+Json mean(const Evaluation& e, double value) { return e.ospa.empty() ? Json() : Json(value); }
+
+void print_json(const Report& report) {
+  const Evaluation& e = report.scores;
+  Json all{{"ospa",
+            {{"mean", mean(e, e.mean_ospa.distance)},
+             {"localisation", mean(e, e.mean_ospa.localisation)},
+             {"cardinality", mean(e, e.mean_ospa.cardinality)},
+             {"per_frame", per_frame(e.ospa)}}},
+           {"gospa",
+            {{"mean", mean(e, e.mean_gospa.distance)},
+             {"localisation", mean(e, e.mean_gospa.localisation)},
+             {"missed", mean(e, e.mean_gospa.missed)},
+             {"false", mean(e, e.mean_gospa.false_alarms)},
+             {"per_frame", per_frame(e.gospa)}}},
+           {"rmse", per_truth(e, &TruthScore::rmse)},
+           {"tracks",
+            {{"truth", e.truths.size()},
+             {"detected", e.detected_truths},
+             {"false", e.false_tracks},
+             {"pd_track", number(e.track_detection_probability)},
+             {"identities_per_truth", number(e.identities_per_truth)}}},
+           {"detect_delay", per_truth(e, &TruthScore::detect_delay)},
+           {"halt_delay", per_truth(e, &TruthScore::halt_delay)},
+           {"points",
+            {{"detected", number(e.detected_points)},
+             {"false_per_frame", number(e.false_points_per_frame)}}}};
+  if (report.baseline) {
+    all["baseline"] = {{"threshold", number(report.baseline->threshold)},
+                       {"detected", number(report.baseline->detected_points)},
+                       {"false_per_frame", number(report.baseline->false_points_per_frame)}};
+  }
+  fmt::print("{}\n", all.dump());
+}
+
+std::string text(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
+
+void print_truths(const Evaluation& e) {
+  fmt::print("\n{:>8}{:>14}{:>11}{:>14}{:>12}{:>8}\n", "truth", "frames", "rmse px", "detect delay",
+             "halt delay", "tracks");
+  for (const auto& [id, t] : e.truths) {
+    fmt::print("{:>8}{:>14}{:>11}{:>14}{:>12}{:>8}\n", id, fmt::format("{}..{}", t.first, t.last),
+               text(t.rmse), text(t.detect_delay), text(t.halt_delay), t.identities);
+  }
+}
+
+void print_table(const Report& report) {
+  const Evaluation& e = report.scores;
+  fmt::print("frames                     {}\n", e.ospa.size());
+  fmt::print("OSPA [px]                  {}   (localisation {}, cardinality {})\n",
+             text(e.mean_ospa.distance), text(e.mean_ospa.localisation),
+             text(e.mean_ospa.cardinality));
+  fmt::print("GOSPA [px]                 {}   (localisation {}, missed {}, false {})\n",
+             text(e.mean_gospa.distance), text(e.mean_gospa.localisation),
+             text(e.mean_gospa.missed), text(e.mean_gospa.false_alarms));
+  fmt::print("truths detected            {} of {}\n", e.detected_truths, e.truths.size());
+  fmt::print("tracks                     {}, {} false\n", e.tracks, e.false_tracks);
+  fmt::print("identities per truth       {}\n", text(e.identities_per_truth));
+  fmt::print("truth points detected      {}\n", text(e.detected_points));
+  fmt::print("false points per frame     {}\n", text(e.false_points_per_frame));
+  if (report.baseline) {
+    fmt::print("single-frame detector      {} detected at {} false points per frame\n",
+               text(report.baseline->detected_points),
+               text(report.baseline->false_points_per_frame));
+  }
+  print_truths(e);
+}
+
+void run(Request request) {
+  const std::vector<TruthPoint> truth = read_truth(request.truth);
+  const std::vector<TrackPoint> tracks = read_tracks(request.tracks);
+  Report report;
+  report.scores = evaluate(truth, tracks, request.options);
+  if (!request.baseline.empty()) {
+    request.options.frames = static_cast<std::int64_t>(report.scores.ospa.size());
+    report.baseline = detector_baseline(truth, read_points(request.baseline),
+                                        report.scores.false_points_per_frame, request.options);
+  }
+  if (request.json) {
+    print_json(report);
+  } else {
+    print_table(report);
+  }
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("evaluate", "Score tracks against the truth");
+  const auto request = std::make_shared<Request>();
+  command->add_option("--truth", request->truth, "Truth table (CSV)")->required();
+  command->add_option("--tracks", request->tracks, "Track table (CSV)")->required();
+  command->add_option("--cutoff", request->options.cutoff, "Farther than this is a miss [px]")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->capture_default_str();
+  command->add_option("--order", request->options.order, "Order of OSPA and GOSPA")
+      ->check(CLI::Range(1.0, 100.0))
+      ->capture_default_str();
+  command->add_option("--frames", request->options.frames,
+                      "Frames 0 to N-1 are scored; by default up to the last one in either table");
+  command->add_option("--baseline", request->baseline,
+                      "Points of a single-frame detector (CSV), scored at the threshold that gives "
+                      "as many false points as the tracks have");
+  command->add_flag("--include-tentative", request->options.include_tentative,
+                    "Score tentative points too, not only confirmed ones");
+  command->add_flag("--json", request->json, "Print JSON instead of a table");
+  command->footer(
+      "Truth needs the columns frame, track_id, x, y (or frame0, linked_id, cx, cy), tracks the\n"
+      "first four, points frame, x, y, amplitude. Delays are in frames.\n"
+      "Example:\n  glint evaluate --truth truth.csv --tracks tracks.csv --cutoff 8");
+  command->callback([request] { run(*request); });
+}
+
+}  // namespace glint::cli

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/experiments/experiment.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "glint/frontends/cli/commands.hpp"
+#include "glint/frontends/cli/curves.hpp"
+
+namespace glint::cli {
+namespace {
+
+struct Request {
+  std::string name, out;
+  ExperimentOptions options;
+  int threads = 0;
+  bool json = false;
+};
+
+std::string end_of(const std::optional<double>& value) {
+  return value ? fmt::format("{:g}", *value) : "";
+}
+
+std::string band_text(const std::optional<Band>& band) {
+  if (!band) return "";
+  if (!band->low) return fmt::format("<= {:g}", *band->high);
+  if (!band->high) return fmt::format(">= {:g}", *band->low);
+  return fmt::format("{:g} to {:g}", *band->low, *band->high);
+}
+
+void print_table(const ExperimentResult& result) {
+  fmt::print("{}, {} runs, seed {}\n\n", result.name, result.runs, result.seed);
+  fmt::print("{:<30}{:<26}{:>9} {:>9}{:>9}   {:<14}{}\n", "condition", "metric", "ours", "+- sd",
+             "paper", "band", "inside");
+  std::string last;
+  for (const ExperimentRow& row : result.rows) {
+    const char* verdict = !row.band ? "" : *row.inside() ? "yes" : "NO";
+    fmt::print("{:<30}{:<26}{:>9.3f} {:>9.3f}{:>9}   {:<14}{}\n", row.name == last ? "" : row.name,
+               row.metric, row.ours, row.spread, end_of(row.paper), band_text(row.band), verdict);
+    last = row.name;
+  }
+}
+
+nlohmann::ordered_json number(double value) {
+  return std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value);
+}
+
+template <class T>
+nlohmann::ordered_json maybe(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+void print_json(const ExperimentResult& result) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const ExperimentRow& row : result.rows) {
+    nlohmann::ordered_json band;
+    if (row.band) band = {maybe(row.band->low), maybe(row.band->high)};
+    rows.push_back({{"name", row.name},
+                    {"metric", row.metric},
+                    {"ours", number(row.ours)},
+                    {"spread", number(row.spread)},
+                    {"paper", maybe(row.paper)},
+                    {"band", band},
+                    {"inside", maybe(row.inside())}});
+  }
+  const nlohmann::ordered_json all{
+      {"experiment", result.name}, {"runs", result.runs}, {"seed", result.seed}, {"rows", rows}};
+  fmt::print("{}\n", all.dump());
+}
+
+/// The folder, made if need be.
+std::filesystem::path output_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw UsageError(path + ": cannot be made; name a folder that can be written");
+  return path;
+}
+
+void show_progress(int done, int total) {
+  fmt::print(stderr, "\r{} of {} runs{}", done, total, done == total ? "\n" : "");
+}
+
+void run(const Request& request) {
+  const ExperimentEntry& entry = find_experiment(request.name);
+  const std::filesystem::path folder =
+      request.out.empty() ? std::filesystem::path() : output_folder(request.out);
+  ExperimentOptions options = request.options;
+  if (isatty(STDERR_FILENO) != 0) options.progress = show_progress;
+  Workers workers(request.threads);
+  const ExperimentResult result = run_experiment(entry, options, workers);
+  if (request.json) {
+    print_json(result);
+  } else {
+    print_table(result);
+  }
+  if (!folder.empty()) {
+    write_curves((folder / (result.name + ".csv")).string(), result);
+    plot_curves((folder / (result.name + ".png")).string(), result);
+  }
+  if (!bands_hold(result)) throw std::runtime_error("a figure lies outside its band");
+}
+
+std::string names() {
+  std::string list;
+  for (const ExperimentEntry& e : all_experiments()) {
+    list += fmt::format("  {:<12}{} ({} runs)\n", e.name, e.summary, e.runs);
+  }
+  return list;
+}
+
+}  // namespace
+
+void add_experiment(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("experiment", "Repeat a paper's experiment beside its table");
+  const auto request = std::make_shared<Request>();
+  command->add_option("name", request->name, "Which one")->required();
+  command->add_option("--runs", request->options.runs, "Monte Carlo runs; 0 = the experiment's own")
+      ->check(CLI::Range(0, 1000000));
+  command->add_option("--seed", request->options.seed, "Seed of the first run")
+      ->capture_default_str();
+  command->add_option("--out", request->out, "Folder for the curves: CSV and a picture");
+  command->add_option("--threads", request->threads, "Threads; 0 = all, the result is the same")
+      ->check(CLI::Range(0, 4096));
+  command->add_flag("--json", request->json, "Print JSON instead of a table");
+  command->footer("Experiments:\n" + names() +
+                  "Exit code 1 if a figure lies outside its band.\n"
+                  "Example:\n  glint experiment phd-5.1 --runs 100 --out curves");
+  command->callback([request] { run(*request); });
+}
+
+}  // namespace glint::cli
