@@ -42,6 +42,8 @@ std::optional<double> as_number(const ConfigValue& value) {
 }
 
 double number_in_range(const ConfigField& field, const ConfigValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (field.automatic && text && *text == "auto") return field.low;
   const std::optional<double> x = as_number(value);
   if (!x) refuse(field, "a number in " + allowed(field), value);
   if (!(*x >= field.low && *x <= field.high)) refuse(field, "in " + allowed(field), value);
@@ -93,6 +95,12 @@ void FieldList::operator()(std::string key, double& value, double low, double hi
   fields_.push_back({std::move(key), &value, low, high, {}, std::move(unit), std::move(help)});
 }
 
+void FieldList::automatic(std::string key, double& value, double low, double high, std::string unit,
+                          std::string help) {
+  (*this)(std::move(key), value, low, high, std::move(unit), std::move(help));
+  fields_.back().automatic = true;
+}
+
 void FieldList::operator()(std::string key, std::string& value, std::vector<std::string> choices,
                            std::string help) {
   fields_.push_back({std::move(key), &value, 0, 0, std::move(choices), {}, std::move(help)});
@@ -130,7 +138,8 @@ std::string to_toml(const ConfigField& field) {
   return std::visit(Overloaded{
                         [](const bool* b) { return value_text(*b); },
                         [](const int* i) { return value_text(std::int64_t{*i}); },
-                        [](const double* x) {
+                        [&](const double* x) {
+                          if (field.automatic && *x == field.low) return quoted("auto");
                           const std::string text = number_text(*x);
                           const bool whole =
                               text.find_first_not_of("-0123456789") == std::string::npos;
@@ -144,7 +153,8 @@ std::string to_toml(const ConfigField& field) {
 std::string allowed(const ConfigField& field) {
   if (std::holds_alternative<bool*>(field.value)) return "true or false";
   if (!std::holds_alternative<std::string*>(field.value)) {
-    return "[" + number_text(field.low) + ", " + number_text(field.high) + "]";
+    const std::string range = "[" + number_text(field.low) + ", " + number_text(field.high) + "]";
+    return field.automatic ? range + " or auto" : range;
   }
   std::string text;
   for (std::size_t i = 0; i < field.choices.size(); ++i) {

@@ -22,6 +22,7 @@ struct ConfigField {
   double low = 0, high = 0;          ///< numbers: allowed range, ends included
   std::vector<std::string> choices;  ///< strings: allowed values; empty = any
   std::string unit, help;            ///< unit may be empty
+  bool automatic = false;            ///< numbers: the text "auto" stands for `low`
 };
 
 /// Collects the fields of a config struct; `describe(FieldList&, Config&)` calls it once a field.
@@ -34,6 +35,9 @@ class FieldList {
                   std::string help);
   void operator()(std::string key, std::string& value, std::vector<std::string> choices,
                   std::string help);
+  /// A number whose least value means that it is found from the data; written and read as "auto".
+  void automatic(std::string key, double& value, double low, double high, std::string unit,
+                 std::string help);
   std::vector<ConfigField>& fields() { return fields_; }
 
  private:

@@ -11,7 +11,7 @@
 namespace glint {
 
 struct IdentityConfig {
-  int confirm_hits = 3;   ///< frames with a peak before a track is confirmed
+  int confirm_hits = 4;   ///< frames with a peak before a track is confirmed
   int halt_misses = 3;    ///< frames without one before it ends
   double separation = 6;  ///< a new track must be this far from a live one [px]
   double reacquire = 4;   ///< a peak without a label takes a lost track's identity within this [px]

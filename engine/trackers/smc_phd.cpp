@@ -138,9 +138,11 @@ void SmcPhd::report(const Scan& scan, double step, TrackLog& log) {
                        modes, log);
     return;
   }
+  const double radius =
+      config_.cluster_radius > 0 ? config_.cluster_radius : spread_.half_width + 0.5;
   const auto peaks =
       peaks_.find(particles_, cells_.runs, scan.whitened.width(), scan.whitened.height(),
-                  spread_.half_width, {config_.existence, config_.cluster_radius});
+                  spread_.half_width, {config_.existence, radius});
   identities_.assign(peaks, peaks_.members(), particles_, scan.frame, scan.time, velocity_scale,
                      modes, log);
 }

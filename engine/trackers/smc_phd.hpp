@@ -24,7 +24,7 @@ struct SmcPhdConfig {
   double process_noise = 0.02;  ///< [px^2/frame^3]
   double turn_rate = 15;        ///< [deg/frame]
   double speed_max = 4;         ///< [px/frame]
-  double intensity_walk = 0.5;  ///< [noise sigmas of peak, per frame]
+  double intensity_walk = 0.2;  ///< [noise sigmas of peak, per frame]
   double survival = 0.99;
   // Where it comes from.
   std::string birth = "two-frame";
@@ -40,7 +40,7 @@ struct SmcPhdConfig {
   std::string psi = "window";
   double clutter = 1;
   double existence = 0.5;
-  double cluster_radius = 2.5;  ///< [px]
+  double cluster_radius = 0;  ///< [px]; 0 = auto, half the window
   IdentityConfig identity;
 };
 void describe(FieldList& list, SmcPhdConfig& config);

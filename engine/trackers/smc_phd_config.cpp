@@ -4,8 +4,9 @@
 namespace glint {
 
 void describe(FieldList& f, SmcPhdConfig& c) {
-  f("psf_sigma", c.psf_sigma, 0, 2.66, "px",
-    "width of the point spread; 0 fits it to the brightest local maxima of the first frames");
+  f.automatic(
+      "psf_sigma", c.psf_sigma, 0, 2.66, "px",
+      "width of the point spread; auto fits it to the brightest local maxima of the first frames");
   f("snr_low", c.snr_low, -20, 80, "dB", "weakest target: peak over noise, 20 log10");
   f("snr_high", c.snr_high, -20, 80, "dB", "strongest target");
   f("jitter", c.jitter, 0, 5, "px", "position error of the sensor, sampled per particle");
@@ -35,7 +36,8 @@ void describe(FieldList& f, SmcPhdConfig& c) {
   f("clutter", c.clutter, 0, 1000, "",
     "lambda of the normaliser in likelihood-ratio units; the paper's 1 - Phi(Th) inflates noise");
   f("existence", c.existence, 0.01, 1, "", "least mass of a reported target");
-  f("cluster_radius", c.cluster_radius, 0.5, 20, "px", "half side of a target's particle box");
+  f.automatic("cluster_radius", c.cluster_radius, 0, 20, "px",
+              "half side of a target's particle box; auto is half the window of the point spread");
   f("confirm_hits", c.identity.confirm_hits, 1, 1000, "frames",
     "seen this often, a track is confirmed");
   f("halt_misses", c.identity.halt_misses, 1, 1000, "frames",

@@ -155,5 +155,18 @@ TEST_F(ConfigTest, SaysWhatIsAllowed) {
   EXPECT_EQ(allowed(field("label")), "");
 }
 
+TEST(Config, TakesAutoForAnAutomaticNumber) {
+  double width = 1;
+  FieldList list;
+  list.automatic("psf_sigma", width, 0, 2.5, "px", "width");
+  ConfigField& field = list.fields()[0];
+  assign_text(field, "auto");
+  EXPECT_EQ(width, 0);
+  EXPECT_EQ(to_toml(field), "\"auto\"");
+  assign(field, 1.5);
+  EXPECT_EQ(to_toml(field), "1.5");
+  EXPECT_THROW(assign_text(field, "wide"), ConfigError);
+}
+
 }  // namespace
 }  // namespace glint
