@@ -37,6 +37,7 @@ class NoBackground : public Background {
     return true;
   }
   void learn(const BackgroundInput&) override {}
+  void rewrite() override { first_ = true; }
   std::string description() const override { return "background: none"; }
 
  private:

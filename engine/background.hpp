@@ -23,6 +23,10 @@ class Background {
   virtual bool estimate(const BackgroundInput& input, ImageView<float> background) = 0;
   /// Takes the frame as a sample of those to come, if its turn has come.
   virtual void learn(const BackgroundInput& input) = 0;
+  /// True if the last estimate is a stand-in: a spatial median, for want of earlier frames.
+  virtual bool provisional() const { return false; }
+  /// Makes the next estimate() write the background even if it has not changed.
+  virtual void rewrite() {}
   virtual std::string description() const = 0;
 };
 

@@ -119,7 +119,11 @@ void FramePreparer::State::mask_background() {
 void FramePreparer::State::estimate_background(const BackgroundInput& input) {
   if (!model->estimate(input, background.view())) return;
   if (masks()) mask_background();
-  if (config.structure) device.run<BackgroundStructure>({background.view(), structure.view()});
+  if (!config.structure) return;
+  // One frame alone cannot tell structure from targets: its own gradient counts, and in full.
+  const bool alone = model->provisional();
+  device.run<BackgroundStructure>(
+      {alone ? input.grey : background.view(), structure.view(), alone ? 1.0F : 0.5F});
 }
 
 Spread FramePreparer::State::spread(FrameView image, FrameView less) {
@@ -168,7 +172,10 @@ FramePreparer::~FramePreparer() = default;
 FramePreparer::FramePreparer(FramePreparer&&) noexcept = default;
 FramePreparer& FramePreparer::operator=(FramePreparer&&) noexcept = default;
 
-void FramePreparer::set_mask(Image<std::uint8_t> ignored) { state_->ignored = std::move(ignored); }
+void FramePreparer::set_mask(Image<std::uint8_t> ignored) {
+  state_->ignored = std::move(ignored);
+  state_->model->rewrite();
+}
 
 Scan FramePreparer::prepare(const RawPixels& raw, std::int64_t frame, double time) {
   State& s = *state_;

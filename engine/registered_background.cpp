@@ -50,7 +50,8 @@ FrameView RegisteredBackground::registered(const Pyramid& sample, Image<float>& 
 
 bool RegisteredBackground::estimate(const BackgroundInput& input, ImageView<float> background) {
   build(input.grey, present_);
-  if (samples_.empty()) {
+  provisional_ = samples_.empty();
+  if (provisional_) {
     device_.run<SpatialMedian>({input.grey, spacing_, background});
     return true;
   }

@@ -16,6 +16,7 @@ class RegisteredBackground : public Background {
   RegisteredBackground(const FramesConfig& config, const Device& device);
   bool estimate(const BackgroundInput& input, ImageView<float> background) override;
   void learn(const BackgroundInput& input) override;
+  bool provisional() const override { return provisional_; }
   std::string description() const override;
 
  private:
@@ -30,6 +31,7 @@ class RegisteredBackground : public Background {
   Device device_;
   int spacing_, max_shift_, stride_;
   double gain_;
+  bool provisional_ = true;
   std::size_t slots_, next_ = 0;
   std::int64_t now_ = 0, shifted_ = 0, compared_ = 0;
   Pyramid present_;

@@ -15,7 +15,8 @@ TemporalBackground::TemporalBackground(const FramesConfig& config, const Device&
              config.background_stride) {}
 
 bool TemporalBackground::estimate(const BackgroundInput& input, ImageView<float> background) {
-  if (times_.size() == 0) {
+  provisional_ = times_.size() == 0;
+  if (provisional_) {
     device_.run<SpatialMedian>({input.grey, spacing_, background});
     return true;
   }

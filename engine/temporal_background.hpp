@@ -17,6 +17,8 @@ class TemporalBackground : public Background {
   TemporalBackground(const FramesConfig& config, const Device& device);
   bool estimate(const BackgroundInput& input, ImageView<float> background) override;
   void learn(const BackgroundInput& input) override;
+  void rewrite() override { stale_ = true; }
+  bool provisional() const override { return provisional_; }
   std::string description() const override;
 
  private:
@@ -35,7 +37,7 @@ class TemporalBackground : public Background {
   int spacing_;
   SampleTimes times_;
   std::int64_t now_ = 0;
-  bool stale_ = false;
+  bool stale_ = false, provisional_ = true;
   std::variant<Samples<std::uint8_t>, Samples<std::uint16_t>, Samples<float>> samples_;
 };
 

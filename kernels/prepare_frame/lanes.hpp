@@ -46,6 +46,7 @@ struct StructurePass {
   int width, height;
   float* structure;
   std::ptrdiff_t structure_pitch;
+  float share;
 };
 
 /// Widest tile of Whiten and BackgroundStructure [px].

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "glint/kernels/core/math.hpp"
+#include "glint/kernels/prepare_frame/lanes_median.hpp"
 #include "glint/kernels/prepare_frame/lanes.hpp"
 
-// Part of lanes.cpp: half the background's morphological gradient, dilated.
+// Part of lanes.cpp: the background's morphological gradient, dilated.
 namespace glint::GLINT_LANES {
 namespace {
 
@@ -78,7 +79,7 @@ void structure_tile(const StructurePass& pass, int x0, int x1, int y0, int y1) {
     for (int i = 0; i < width; ++i) {
       const float ab = larger(rows.dilated[0][i], rows.dilated[1][i]);
       const float cd = larger(rows.dilated[2][i], rows.dilated[3][i]);
-      out[i] = 0.5f * larger(larger(ab, cd), rows.dilated[4][i]);
+      out[i] = pass.share * larger(larger(ab, cd), rows.dilated[4][i]);
     }
   }
 }

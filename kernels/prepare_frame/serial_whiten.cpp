@@ -72,7 +72,7 @@ void BackgroundStructure::serial(const Args& args) {
           most = std::max(most, gradient(args.background, u, v));
         }
       }
-      args.structure(x, y) = static_cast<float>(most / 2);
+      args.structure(x, y) = static_cast<float>(args.share * most);
     }
   }
 }

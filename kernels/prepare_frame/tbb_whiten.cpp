@@ -115,8 +115,13 @@ WhitenPass make_pass(const Whiten::Args& args) {
 }  // namespace
 
 void BackgroundStructure::tbb(const Args& args, Workers& workers) {
-  const StructurePass pass{args.background.data,   args.background.pitch, args.background.width,
-                           args.background.height, args.structure.data,   args.structure.pitch};
+  const StructurePass pass{args.background.data,
+                           args.background.pitch,
+                           args.background.width,
+                           args.background.height,
+                           args.structure.data,
+                           args.structure.pitch,
+                           args.share};
   const auto& lanes = prepare_frame_lanes(workers.isa());
   for_blocks(pass.width, pass.height, workers,
              [&](int x0, int x1, int y0, int y1) { lanes.structure(pass, x0, x1, y0, y1); });

@@ -8,14 +8,16 @@
 
 namespace glint {
 
-/// Noise that the background's own structure causes wherever it moves or is misjudged: half the
-/// morphological gradient (maximum minus minimum of 3x3), dilated by 5x5. NaN pixels are left out.
+/// Noise that the background's own structure causes wherever it moves or is misjudged: a share of
+/// the morphological gradient (maximum minus minimum of 3x3), dilated by 5x5. NaN pixels are left
+/// out.
 struct BackgroundStructure {
   static constexpr std::string_view name = "background_structure";
   static constexpr Tolerance tolerance{0, 1e-6};
   struct Args {
     FrameView background;
     ImageView<float> structure;  ///< [grey levels]; not the background itself
+    float share = 0.5F;
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
