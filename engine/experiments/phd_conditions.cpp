@@ -29,6 +29,8 @@ SmcPhdConfig paper_settings(std::size_t level) {
   config.birth_mass = 0.05;
   config.birth_threshold = kThreshold[level];
   config.particles_per_target = config.particles_max = 4000;
+  config.existence = 0.5;
+  config.cluster_radius = 2.5;
   config.identity.separation = 0;  // every state is scored
   return config;
 }

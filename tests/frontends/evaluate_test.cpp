@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "folder.hpp"
+#include "glint/frontends/cli/commands.hpp"
+
+namespace glint {
+namespace {
+
+using test::Folder;
+
+struct Outcome {
+  int code;
+  std::string out, err;
+};
+
+Outcome glint(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "glint");
+  std::vector<char*> argv;
+  for (std::string& a : arguments) argv.push_back(a.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = cli::run(static_cast<int>(argv.size()), argv.data());
+  const std::string out = testing::internal::GetCapturedStdout();
+  return {code, out, testing::internal::GetCapturedStderr()};
+}
+
+constexpr const char* kTracks =
+    "frame,time,track_id,status,x,y,vx,vy,intensity,existence,var_x,cov_xy,var_y\n"
+    "1,1,4,confirmed,11,5,,,,,,,\n"
+    "2,2,4,confirmed,12,5,,,,,,,\n"
+    "2,2,5,tentative,90,90,,,,,,,\n";
+
+TEST(Evaluate, PrintsTheJsonOfTheContract) {
+  const Folder folder;
+  const std::string truth =
+      folder.write("truth.csv", "frame,track_id,x,y\n0,0,10,5\n1,0,11,5\n2,0,12,8\n2,9,50,50\n");
+  const std::string tracks = folder.write("tracks.csv", kTracks);
+  const Outcome o = glint({"evaluate", "--truth", truth, "--tracks", tracks, "--json"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto json = nlohmann::json::parse(o.out);
+  EXPECT_EQ(json["ospa"]["per_frame"].size(), 3u);
+  EXPECT_EQ(json["ospa"]["per_frame"][0], 5.0);
+  EXPECT_EQ(json["ospa"]["per_frame"][1], 0.0);
+  EXPECT_TRUE(json["gospa"]["missed"].is_number());
+  EXPECT_TRUE(json["gospa"]["false"].is_number());
+  EXPECT_NEAR(json["rmse"]["0"].get<double>(), std::sqrt(9 / 2.0), 1e-12);
+  EXPECT_TRUE(json["rmse"]["9"].is_null());
+  EXPECT_EQ(json["tracks"]["truth"], 2);
+  EXPECT_EQ(json["tracks"]["detected"], 1);
+  EXPECT_EQ(json["tracks"]["false"], 0);
+  EXPECT_EQ(json["tracks"]["pd_track"], 0.5);
+  EXPECT_EQ(json["detect_delay"]["0"], 1.0);
+  EXPECT_TRUE(json["halt_delay"]["9"].is_null());
+  EXPECT_EQ(json["points"]["detected"], 0.5);
+  EXPECT_EQ(json["points"]["false_per_frame"], 0.0);
+}
+
+TEST(Evaluate, TakesTruthOfLabelledBoxes) {
+  const Folder folder;
+  const std::string truth = folder.write("boxes.csv",
+                                         "frame0,linked_id,class,cx,cy,w,h\n0,3,BIRD,10,5,8,8\n"
+                                         "1,3,BIRD,11,5,8,8\n2,3,BIRD,12,5,8,8\n");
+  const std::string tracks = folder.write("tracks.csv", kTracks);
+  const Outcome o = glint({"evaluate", "--truth", truth, "--tracks", tracks, "--json"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(nlohmann::json::parse(o.out)["rmse"]["3"], 0.0);
+}
+
+TEST(Evaluate, SetsADetectorBesideTheTracks) {
+  const Folder folder;
+  const std::string truth = folder.write("truth.csv", "frame,track_id,x,y\n1,0,11,5\n2,0,12,5\n");
+  const std::string tracks = folder.write("tracks.csv", kTracks);
+  const std::string points =
+      folder.write("points.csv", "frame,time,x,y,amplitude\n1,1,11,5,9\n2,2,70,5,8\n2,2,12,5,7\n");
+  const Outcome o =
+      glint({"evaluate", "--truth", truth, "--tracks", tracks, "--baseline", points, "--json"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto baseline = nlohmann::json::parse(o.out)["baseline"];
+  EXPECT_EQ(baseline["threshold"], 9.0);
+  EXPECT_EQ(baseline["detected"], 0.5);
+  EXPECT_EQ(baseline["false_per_frame"], 0.0);
+}
+
+TEST(Evaluate, NamesWhatIsMissing) {
+  const Folder folder;
+  const std::string truth = folder.write("truth.csv", "frame,track_id,x\n");
+  const std::string tracks = folder.write("tracks.csv", kTracks);
+  const Outcome o = glint({"evaluate", "--truth", truth, "--tracks", tracks});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.err.find("y or cy"), std::string::npos) << o.err;
+  EXPECT_EQ(glint({"evaluate", "--truth", folder / "none.csv", "--tracks", tracks}).code, 2);
+  EXPECT_EQ(glint({"evaluate", "--truth", truth, "--tracks", tracks, "--cutoff", "0"}).code, 2);
+}
+
+TEST(ExperimentCommand, PrintsTheJsonOfTheContractAndWritesTheCurves) {
+  const Folder folder;
+  const Outcome o = glint({"experiment", "phd-5.1", "--runs", "1", "--seed", "3", "--threads", "1",
+                           "--json", "--out", folder / "curves"});
+  const auto json = nlohmann::json::parse(o.out);
+  EXPECT_EQ(json["experiment"], "phd-5.1");
+  EXPECT_EQ(json["runs"], 1);
+  EXPECT_EQ(json["seed"], 3);
+  bool all_inside = true;
+  for (const auto& row : json["rows"]) {
+    EXPECT_TRUE(row["name"].is_string() && row["metric"].is_string());
+    EXPECT_TRUE(row["paper"].is_null());
+    EXPECT_EQ(row["band"].is_null(), row["inside"].is_null());
+    if (!row["band"].is_null()) {
+      EXPECT_EQ(row["band"].size(), 2u);
+    }
+    if (row["inside"].is_boolean()) all_inside = all_inside && row["inside"].get<bool>();
+  }
+  EXPECT_EQ(o.code, all_inside ? 0 : 1) << o.err;
+  std::ifstream csv(folder / "curves/phd-5.1.csv");
+  std::string comment, header, first;
+  std::getline(csv, comment), std::getline(csv, header), std::getline(csv, first);
+  EXPECT_EQ(header, "frame,condition,level,ospa,rmse,n");
+  EXPECT_TRUE(first.starts_with("1,\"standard\",\"12 dB\",")) << first;
+}
+
+TEST(ExperimentCommand, RefusesAnUnknownNameAndAFolderThatCannotBe) {
+  const Folder folder;
+  const Outcome unknown = glint({"experiment", "nothing"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("phd-5.1"), std::string::npos);
+  const std::string file = folder.write("file", "");
+  EXPECT_EQ(glint({"experiment", "phd-5.1", "--runs", "1", "--out", file + "/x"}).code, 2);
+}
+
+}  // namespace
+}  // namespace glint
