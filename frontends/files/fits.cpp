@@ -75,8 +75,8 @@ class FitsSource : public Source {
     auto pixels = std::shared_ptr<float[]>(new float[static_cast<std::size_t>(count)]);
     long first[3] = {1, 1, ++frame_};
     float blank = std::numeric_limits<float>::quiet_NaN();
-    int status = 0;
-    fits_read_pix(file_.get(), TFLOAT, first, count, &blank, pixels.get(), nullptr, &status);
+    int status = 0, any_blank = 0;  // cfitsio writes to the latter unasked
+    fits_read_pix(file_.get(), TFLOAT, first, count, &blank, pixels.get(), &any_blank, &status);
     if (status != 0) {
       refuse(path_, fmt::format("frame {} of {} is damaged or truncated", frame_ - 1, axes_.frames),
              status);

@@ -93,12 +93,12 @@ class OverlayPicture : public ClosingSink {
   }
   void take(const ScanResult& result) override {
     painter_.follow(result.reported);
-    std::ptrdiff_t confirmed = 0;
-    for (const auto& points : result.reported) {
-      confirmed += std::ranges::count(points, TrackStatus::confirmed, &TrackPoint::status);
+    std::size_t followed = 0;
+    for (const auto& [track, tail] : painter_.tails()) {
+      if (tail.back().status == TrackStatus::confirmed) followed += tail.size();
     }
-    if (frame_ && confirmed < most_) return;
-    most_ = confirmed;
+    if (frame_ && followed < most_) return;
+    most_ = followed;
     frame_ = result.scan.raw;
     tails_ = painter_.tails();
   }
@@ -127,7 +127,7 @@ class OverlayPicture : public ClosingSink {
   Painter painter_;
   Frame frame_;
   Painter::Tails tails_;
-  std::ptrdiff_t most_ = 0;
+  std::size_t most_ = 0;
 };
 
 }  // namespace

@@ -21,8 +21,9 @@ class ClosingSink : public Sink {
 std::unique_ptr<ClosingSink> overlay_video(const std::string& path, double frame_rate,
                                            const Warn& warn);
 
-/// Writes one picture at the end: left the raw frame, right the same with tracks; of the frame with
-/// the most confirmed tracks, the last such one. Throws UsageError if the path cannot be written.
+/// Writes one picture at the end: left the raw frame, right the same with tracks; of the last frame
+/// with most to see: many confirmed tracks and long tails. Throws UsageError if the path cannot be
+/// written.
 std::unique_ptr<ClosingSink> overlay_picture(const std::string& path);
 
 }  // namespace glint

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "folder.hpp"
+#include "glint/frontends/files/npy.hpp"
+#include "glint/frontends/files/tables.hpp"
+
+namespace glint {
+namespace {
+
+using test::content_of;
+using test::Folder;
+using test::has;
+
+struct Result {
+  int code = -1;
+  std::string out, err;
+};
+
+/// Runs the built program with `arguments`, which a shell splits.
+Result glint(const Folder& folder, const std::string& arguments) {
+  const std::string err = folder / "stderr.txt";
+  FILE* pipe = popen((std::string(GLINT_BINARY) + " " + arguments + " 2>" + err).c_str(), "r");
+  Result result;
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    result.out.append(buffer.data(), n);
+  }
+  const int status = pclose(pipe);
+  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  result.err = content_of(err);
+  return result;
+}
+
+/// One line "glint: ..." that holds `part`, and exit code `code`.
+void expect_error(const Result& result, int code, const std::string& part) {
+  EXPECT_EQ(result.code, code) << result.err;
+  EXPECT_TRUE(result.err.starts_with("glint: ")) << result.err;
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  EXPECT_TRUE(has(result.err, part)) << result.err;
+}
+
+/// A cube of flat frames, with `odd` in one pixel of the second frame.
+std::string cube(const Folder& folder, int width, int height, int frames, float value, float odd) {
+  NpyWriter writer(folder / "cube.npy");
+  for (int f = 0; f < frames; ++f) {
+    Image<float> image(width, height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        image.view()(x, y) = value * static_cast<float>((7 * x + 3 * y + 5 * f) % 11);
+      }
+    }
+    if (f == 1) image.view()(width / 2, height / 2) = odd;
+    writer.write(image.view());
+  }
+  return folder / "cube.npy";
+}
+
+TEST(Cli, ShowsHelpAndVersion) {
+  const Folder folder;
+  for (const std::string arguments : {"", "--help", "track --help"}) {
+    const Result result = glint(folder, arguments);
+    EXPECT_EQ(result.code, 0);
+    EXPECT_TRUE(has(result.out, "glint track clip.mp4")) << result.out;
+  }
+  EXPECT_TRUE(has(glint(folder, "--version").out, "glint 0."));
+  EXPECT_TRUE(has(glint(folder, "info").out, "smc-phd"));
+}
+
+TEST(Cli, WrongUseIsExitCodeTwoAndOneLine) {
+  const Folder folder;
+  const std::string run = "track scene:noise --tracker smc-phd ";
+  expect_error(glint(folder, "dance"), 2, "dance");
+  expect_error(glint(folder, "track"), 2, "INPUT");
+  expect_error(glint(folder, "track scene:noise"), 2, "--tracker");
+  expect_error(glint(folder, "track scene:noise --tracker foo"), 2, "smc-phd");
+  expect_error(glint(folder, "track scene:foo --tracker smc-phd"), 2, "noise");
+  expect_error(glint(folder, "track none.mp4 --tracker smc-phd"), 2, "none.mp4");
+  expect_error(glint(folder, run + "--device egl"), 2, "not in this build");
+  expect_error(glint(folder, run + "--set no_such=1"), 2, "no_such");
+  expect_error(glint(folder, run + "--set birth_particles=0"), 2, "must be in");
+  expect_error(glint(folder, run + "--seed x"), 2, "run.seed");
+  expect_error(glint(folder, run + "--out " + (folder / "no/t.csv")), 2, "no/t.csv");
+  expect_error(glint(folder, run + "--config " + (folder / "no.toml")), 2, "no.toml");
+  folder.write("c.toml", "[frames]\n\npolarity = \"up\"\n");
+  expect_error(glint(folder, run + "--config " + (folder / "c.toml")), 2, "c.toml:3:");
+}
+
+TEST(Cli, ATruncatedInputIsExitCodeOne) {
+  const Folder folder;
+  const std::string path = cube(folder, 32, 32, 4, 1, 1);
+  test::truncate(path, 0.5);
+  expect_error(glint(folder, "track " + path + " --tracker smc-phd"), 1, "truncated");
+}
+
+TEST(Cli, AFailureKeepsWhatWasTracked) {
+  const Folder folder;
+  std::filesystem::rename(cube(folder, 32, 32, 4, 1, 1), folder / "a.npy");
+  std::filesystem::rename(cube(folder, 33, 32, 4, 1, 1), folder / "b.npy");
+  const Result result = glint(folder, "track " + (folder / "a.npy") + " " + (folder / "b.npy") +
+                                          " --tracker smc-phd --out " + (folder / "t.csv"));
+  expect_error(result, 1, "33x32");
+  EXPECT_TRUE(has(content_of(folder / "t.csv"), "## estimated"));
+}
+
+TEST(Cli, OddInputsHaveADefinedResult) {
+  const Folder folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  const auto runs = [&](int width, int height, int frames, float value, float odd) {
+    const Result result = glint(folder, "track " + cube(folder, width, height, frames, value, odd) +
+                                            " --tracker smc-phd --out " + (folder / "t.csv"));
+    EXPECT_EQ(result.code, 0) << width << "x" << height << ": " << result.err;
+    for (const TrackPoint& p : read_tracks(folder / "t.csv")) {
+      EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+    }
+  };
+  runs(32, 32, 6, 1, nan);
+  runs(32, 32, 6, 1, inf);
+  runs(32, 32, 6, 0, 0);  // all zero
+  runs(32, 32, 1, 1, 1);  // one frame
+  runs(3, 2, 6, 1, 1);    // smaller than the window
+  runs(1, 1, 6, 1, 1);
+  runs(32, 32, 6, nan, nan);  // nothing but NaN
+}
+
+TEST(Cli, SimulatedFramesAreTrackedAndARunRepeatsFromItsOwnFile) {
+  const Folder folder;
+  const std::string clip = folder / "clip";
+  ASSERT_EQ(glint(folder, "simulate crossing --seed 3 --format npy --out " + clip).code, 0);
+  EXPECT_GT(read_truth(clip + "/truth.csv").size(), 20u);
+  EXPECT_GT(read_points(clip + "/points.csv").size(), 20u);
+  const std::string first = folder / "1.csv", second = folder / "2.csv", third = folder / "3.csv";
+  ASSERT_EQ(glint(folder, "track " + clip +
+                              " --tracker smc-phd --seed 5 --add-noise 0.1 --set "
+                              "birth_particles=3000 --quiet --out " +
+                              first)
+                .code,
+            0);
+  EXPECT_TRUE(has(content_of(first), "# seed = 5\n"));
+  EXPECT_TRUE(has(content_of(first), "# birth_particles = 3000\n"));
+  EXPECT_GT(read_tracks(first).size(), 20u);
+  ASSERT_EQ(glint(folder, "track " + clip + " --config " + first + " --out " + second).code, 0);
+  EXPECT_EQ(content_of(first), content_of(second));
+  ASSERT_EQ(glint(folder, "track " + clip + " --config " + first + " --seed 6 --out " + third).code,
+            0);
+  EXPECT_NE(content_of(first), content_of(third));
+}
+
+TEST(Cli, ConfigOfATrackerIsAFileThatChangesNothing) {
+  const Folder folder;
+  const Result config = glint(folder, "config smc-phd");
+  ASSERT_EQ(config.code, 0);
+  folder.write("c.toml", config.out);
+  const std::string run = "track scene:phd-5.1 --out ";
+  ASSERT_EQ(glint(folder, run + (folder / "1.csv") + " --tracker smc-phd").code, 0);
+  ASSERT_EQ(glint(folder, run + (folder / "2.csv") + " --config " + (folder / "c.toml")).code, 0);
+  EXPECT_EQ(content_of(folder / "1.csv"), content_of(folder / "2.csv"));
+}
+
+TEST(Cli, MaskedPixelsFindNothing) {
+  const Folder folder;
+  const std::string clip = folder / "clip";
+  ASSERT_EQ(glint(folder, "simulate crossing --format npy --out " + clip).code, 0);
+  const auto source = open_npy(clip + "/frames.npy");
+  const auto frame = source->next();
+  Image<float> mask(frame->pixels.width, frame->pixels.height);
+  for (int y = 0; y < mask.height(); ++y) std::fill_n(mask.view().row(y), mask.width(), 1.0f);
+  NpyWriter(folder / "mask.npy").write(mask.view());
+  const std::string out = folder / "p.csv";
+  ASSERT_EQ(glint(folder, "points " + clip + " --threshold 3 --out " + out).code, 0);
+  EXPECT_GT(read_points(out).size(), 0u);
+  ASSERT_EQ(glint(folder, "points " + clip + " --threshold 3 --mask " + (folder / "mask.npy") +
+                              " --out " + out)
+                .code,
+            0);
+  EXPECT_EQ(read_points(out).size(), 0u);
+}
+
+}  // namespace
+}  // namespace glint

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/files/tables.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "folder.hpp"
+#include "glint/frontends/files/track_file.hpp"
+#include "glint/frontends/usage_error.hpp"
+
+namespace glint {
+namespace {
+
+using test::content_of;
+using test::Folder;
+using test::has;
+using test::message_of;
+
+TrackPoint point(std::int64_t frame, std::int64_t id, double x, TrackStatus status) {
+  TrackPoint p;
+  p.frame = frame, p.time = 0.5 * static_cast<double>(frame), p.track_id = id;
+  p.x = x, p.y = 2 * x, p.status = status, p.existence = 0.75;
+  p.mode_probability = {0.25, 0.75};
+  return p;
+}
+
+TEST(Tables, ColumnsAreFoundByNameAndOthersPassedOver) {
+  const Folder folder;
+  const auto path = folder.write("t.csv",
+                                 "# a comment\nextra,y,x,track_id,frame\n"
+                                 "foo,2.5,1.5,7,3\r\n\n# another\n,4,-3e1,8,4\n");
+  const auto truth = read_truth(path);
+  ASSERT_EQ(truth.size(), 2u);
+  EXPECT_EQ(truth[0].frame, 3);
+  EXPECT_EQ(truth[0].track_id, 7);
+  EXPECT_DOUBLE_EQ(truth[0].x, 1.5);
+  EXPECT_DOUBLE_EQ(truth[0].y, 2.5);
+  EXPECT_TRUE(std::isnan(truth[0].vx));
+  EXPECT_DOUBLE_EQ(truth[1].x, -30);
+}
+
+TEST(Tables, MistakesAreNamedWithFileAndLine) {
+  const Folder folder;
+  const auto refused = [&](const std::string& content) {
+    const auto path = folder.write("t.csv", content);
+    return message_of<std::runtime_error>([&] { read_tracks(path); });
+  };
+  const std::string head = "frame,track_id,x,y,status\n";
+  EXPECT_TRUE(has(refused("frame,x\n1,2\n"), "no column track_id, y"));
+  EXPECT_TRUE(has(refused(head + "1,2,3,4,confirmed\n1,2,three,4,confirmed\n"), "t.csv:3: x"));
+  EXPECT_TRUE(has(refused(head + "1.5,2,3,4,confirmed\n"), "t.csv:2: frame must be a whole"));
+  EXPECT_TRUE(has(refused(head + "1,2,3,4,alive\n"), "tentative, confirmed or halted"));
+  EXPECT_TRUE(has(refused(head + "1,2,3\n"), "t.csv:2"));
+  EXPECT_TRUE(has(refused("# nothing\n"), "header"));
+  EXPECT_TRUE(has(message_of<UsageError>([&] { read_tracks(folder / "no.csv"); }), "no.csv"));
+}
+
+TEST(TrackFile, CsvReadsBackAndHoldsConfigurationAndNotes) {
+  const Folder folder;
+  const std::string path = folder / "t.csv";
+  TrackLog log;
+  log.set_mode_names({"cv", "ct"});
+  log.report(point(0, 1, 1.25, TrackStatus::tentative));
+  log.report(point(1, 1, 2.25, TrackStatus::confirmed));
+  {
+    TrackFile file(path, {"t", "[run]\nseed = 5\n"}, false);
+    for (int f : {0, 1}) file.write(log.at(f), log.mode_names());
+    file.close(log, {"sigma 3"});
+  }
+  const std::string text = content_of(path);
+  EXPECT_TRUE(has(text,
+                  "\n# [run]\n# seed = 5\nframe,time,track_id,status,x,y,vx,vy,intensity,"
+                  "existence,var_x,cov_xy,var_y,p_cv,p_ct\n"
+                  "0,0,1,tentative,1.25,2.5,,,,0.75,,,,0.25,0.75\n"))
+      << text;
+  EXPECT_TRUE(has(text, "## estimated: sigma 3\n"));
+  const auto tracks = read_tracks(path);
+  ASSERT_EQ(tracks.size(), 2u);
+  EXPECT_EQ(tracks[1].status, TrackStatus::confirmed);
+  EXPECT_DOUBLE_EQ(tracks[1].time, 0.5);
+  EXPECT_TRUE(std::isnan(tracks[1].vx));
+}
+
+TEST(TrackFile, EveryFrameIsThereBeforeTheEnd) {
+  const Folder folder;
+  TrackFile file(folder / "t.csv", {"t", ""}, false);
+  const std::vector points{point(0, 1, 1, TrackStatus::confirmed)};
+  file.write(points, {});
+  EXPECT_EQ(read_tracks(folder / "t.csv").size(), 1u);
+}
+
+TEST(TrackFile, LatePointsAreAdded) {
+  const Folder folder;
+  TrackLog log;
+  log.report(point(1, 1, 1, TrackStatus::confirmed));
+  TrackFile file(folder / "t.csv", {"t", ""}, false);
+  file.write(log.at(1), {});
+  log.report(point(0, 1, 0, TrackStatus::confirmed));
+  file.close(log, {});
+  EXPECT_EQ(read_tracks(folder / "t.csv").size(), 2u);
+}
+
+TEST(TrackFile, RevisedReplacesWhatWasReported) {
+  const Folder folder;
+  TrackLog log;
+  log.report(point(0, 1, 1, TrackStatus::tentative));
+  log.report(point(0, 2, 1, TrackStatus::tentative));
+  TrackFile file(folder / "t.csv", {"t", ""}, true);
+  file.write(log.at(0), {});
+  log.confirm(1, 0);
+  log.drop(2, 0);
+  file.close(log, {});
+  const auto tracks = read_tracks(folder / "t.csv");
+  ASSERT_EQ(tracks.size(), 1u);
+  EXPECT_EQ(tracks[0].status, TrackStatus::confirmed);
+}
+
+TEST(TrackFile, JsonLinesAreObjectsWithTheNamesOfTheColumns) {
+  const Folder folder;
+  TrackLog log;
+  TrackFile file(folder / "t.jsonl", {"t", "[run]\n"}, false);
+  file.write(std::vector{point(3, 9, 1.5, TrackStatus::halted)}, {"cv", "ct"});
+  file.close(log, {"note"});
+  std::istringstream lines(content_of(folder / "t.jsonl"));
+  std::vector<nlohmann::json> json;
+  for (std::string line; std::getline(lines, line);) json.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(json.size(), 3u);
+  EXPECT_EQ(json[0]["config"], "[run]\n");
+  EXPECT_EQ(json[1]["frame"], 3);
+  EXPECT_EQ(json[1]["status"], "halted");
+  EXPECT_EQ(json[1]["x"], 1.5);
+  EXPECT_TRUE(json[1]["vx"].is_null());
+  EXPECT_EQ(json[1]["p_ct"], 0.75);
+  EXPECT_EQ(json[2]["estimated"][0], "note");
+}
+
+TEST(TrackFile, MotCountsFromOneAndHoldsConfirmedPointsOnly) {
+  const Folder folder;
+  TrackFile file(folder / "t.mot.txt", {"t", ""}, false);
+  file.write(
+      std::vector{point(0, 4, 10, TrackStatus::confirmed), point(0, 5, 10, TrackStatus::tentative)},
+      {});
+  EXPECT_EQ(content_of(folder / "t.mot.txt"), "1,4,7.5,17.5,7,7,0.75,-1,-1,-1\n");
+}
+
+TEST(TrackFile, AnUnwritableFileIsFoundOutAtOnce) {
+  const Folder folder;
+  EXPECT_THROW(TrackFile(folder / "no/such/t.csv", {}, false), UsageError);
+  EXPECT_THROW(TrackFile(folder / "t.xml", {}, false), UsageError);
+}
+
+}  // namespace
+}  // namespace glint
