@@ -86,6 +86,10 @@ struct EquationSums {
   double xx, xy, yy, xe, ye;
 };
 
+struct KeyRange {
+  std::int32_t least, most;
+};
+
 struct PrepareFrameLanes {
   /// Rows [y0, y1); true if a pixel became NaN.
   bool (*grey_u8)(const GreyPass<std::uint8_t>&, int y0, int y1);
@@ -98,6 +102,7 @@ struct PrepareFrameLanes {
   /// Columns [x0, x1), at most kTileColumns, of rows [y0, y1).
   void (*structure)(const StructurePass&, int x0, int x1, int y0, int y1);
   void (*whiten)(const WhitenPass&, int x0, int x1, int y0, int y1);
+  KeyRange (*make_keys)(const float* values, std::int32_t* keys, int n);
   /// How many of the keys are <= pivot.
   int (*count_up_to)(const std::int32_t* keys, int n, std::int32_t pivot);
   void (*halve)(const float* upper, const float* lower, float* half, int n);

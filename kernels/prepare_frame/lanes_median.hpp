@@ -140,6 +140,19 @@ void lattice_rows(const LatticePass& pass, int y0, int y1) {
   }
 }
 
+/// Floats as integers of the same order.
+KeyRange make_keys(const float* __restrict values, std::int32_t* __restrict keys, int n) {
+  KeyRange range{INT32_MAX, INT32_MIN};
+  for (int i = 0; i < n; ++i) {
+    const std::int32_t bits = math::bits(values[i]);
+    const std::int32_t key = bits ^ ((bits >> 31) & 0x7fffffff);
+    range.least = key < range.least ? key : range.least;
+    range.most = key > range.most ? key : range.most;
+    keys[i] = key;
+  }
+  return range;
+}
+
 int count_up_to(const std::int32_t* keys, int n, std::int32_t pivot) {
   int count = 0;
   for (int i = 0; i < n; ++i) count += keys[i] <= pivot ? 1 : 0;

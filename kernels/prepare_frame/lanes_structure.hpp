@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "glint/kernels/core/math.hpp"
-#include "glint/kernels/prepare_frame/lanes_median.hpp"
 #include "glint/kernels/prepare_frame/lanes.hpp"
+#include "glint/kernels/prepare_frame/lanes_median.hpp"
 
 // Part of lanes.cpp: the background's morphological gradient, dilated.
 namespace glint::GLINT_LANES {
@@ -37,17 +37,18 @@ GLINT_INLINE void load_row(const StructurePass& pass, int x0, int n, int y, floa
 GLINT_INLINE float larger(float most, float value) { return value > most ? value : most; }
 GLINT_INLINE float smaller(float least, float value) { return value < least ? value : least; }
 
-/// Gradients of one row at columns x0 + 1 .. x0 + n - 2 of three background rows.
+/// Gradients of one row at columns 1 .. n - 2 of three background rows.
 GLINT_INLINE void gradient_row(const float* __restrict a, const float* __restrict b,
                                const float* __restrict c, float* __restrict out, int n) {
   constexpr float kInfinity = __builtin_inff();
+  alignas(64) float high[kStructureWidth + 32], low[kStructureWidth + 32];
+  for (int i = 0; i < n; ++i) {
+    high[i] = larger(larger(larger(-kInfinity, a[i]), b[i]), c[i]);
+    low[i] = smaller(smaller(smaller(kInfinity, a[i]), b[i]), c[i]);
+  }
   for (int i = 1; i < n - 1; ++i) {
-    float high = -kInfinity, low = kInfinity;
-    for (int k = -1; k <= 1; ++k) {
-      high = larger(larger(larger(high, a[i + k]), b[i + k]), c[i + k]);
-      low = smaller(smaller(smaller(low, a[i + k]), b[i + k]), c[i + k]);
-    }
-    const float gradient = high - low;
+    const float gradient = larger(larger(high[i - 1], high[i]), high[i + 1]) -
+                           smaller(smaller(low[i - 1], low[i]), low[i + 1]);
     out[i] = gradient > 0 ? gradient : 0;
   }
 }

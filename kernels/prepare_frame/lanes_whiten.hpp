@@ -11,13 +11,18 @@ namespace glint::GLINT_LANES {
 namespace {
 
 constexpr int kRingRows = 2 * Whiten::kMaxRing + 2;
-constexpr int kRingWidth = kTileColumns + 2 * Whiten::kMaxRing + 32;
+/// Room before a row's first column, so that the sum of nothing has a place.
+constexpr int kLead = 16;
+constexpr int kRingWidth = kLead + kTileColumns + 2 * Whiten::kMaxRing + 64;
 
-/// Box sums of one quantity, moved down row by row: columns are indexed from x0 - outer.
+// Not `using`: g++ drops the attribute of a dependent type there.
+typedef std::uint32_t Words __attribute__((vector_size(4 * kLanes)));  // NOLINT
+
+/// Box sums of one quantity, moved down row by row. A row holds the sums from its first column, x0
+/// - outer, up to each column, at kLead + column; they may run over, differences of them are right.
 struct RingSums {
-  alignas(64) std::int32_t rows[kRingRows][kRingWidth];
-  alignas(64) std::int32_t outer[kRingWidth], inner[kRingWidth];  ///< sums down the columns
-  alignas(64) std::int32_t ring[kTileColumns + 32];               ///< outer box less inner box
+  alignas(64) std::uint32_t rows[kRingRows][kRingWidth];
+  alignas(64) std::uint32_t outer[kRingWidth], inner[kRingWidth];  ///< sums of the rows in a box
 };
 
 struct WhitenTile {
@@ -26,29 +31,25 @@ struct WhitenTile {
   int left, right;  ///< columns of the energies that lie in the frame
   bool masked;      ///< some pixel of the tile or its surroundings is not known
   RingSums energy, known;
+  alignas(64) std::uint32_t entering[kRingWidth];  ///< a row before it is summed up
   alignas(64) float mean_factor[kTileColumns + 32];
   alignas(64) float noise[kTileColumns + 32], z[kTileColumns + 32];
+  alignas(64) float no_structure[kTileColumns + 32];
 };
 
-GLINT_INLINE std::int32_t* ring_row(const WhitenTile& t, RingSums& sums, int y) {
+GLINT_INLINE int columns(const WhitenTile& t) { return t.x1 - t.x0 + 2 * t.pass->outer; }
+
+GLINT_INLINE std::uint32_t* ring_row(const WhitenTile& t, RingSums& sums, int y) {
   const int period = 2 * t.pass->outer + 2;
   return sums.rows[(y + 4 * period) % period];
 }
 
-/// Energies of row y, and which of its pixels are known; nothing outside the frame. True if a pixel
-/// is not known.
-bool enter_row(WhitenTile& t, int y) {
+/// Energies of row y of the frame; true if a pixel is not known.
+GLINT_INLINE bool read_energies(WhitenTile& t, int y) {
   const WhitenPass& p = *t.pass;
-  const int columns = t.x1 - t.x0 + 2 * p.outer;
-  std::int32_t* __restrict energy = ring_row(t, t.energy, y);
-  std::int32_t* __restrict known = ring_row(t, t.known, y);
-  if (y < 0 || y >= p.height) {
-    __builtin_memset(energy, 0, sizeof(std::int32_t) * static_cast<std::size_t>(columns));
-    __builtin_memset(known, 0, sizeof(std::int32_t) * static_cast<std::size_t>(columns));
-    return false;
-  }
   const float* __restrict image = p.image + y * p.image_pitch + t.x0 - p.outer;
   const float* __restrict background = p.background + y * p.background_pitch + t.x0 - p.outer;
+  std::uint32_t* __restrict energy = t.entering;
   const float inverse = p.inverse_sigma, scale = p.energy_scale, cap = p.energy_cap;
   std::int32_t unknown = 0;
   for (int i = t.left; i < t.right; ++i) {
@@ -56,60 +57,92 @@ bool enter_row(WhitenTile& t, int y) {
     const float e = r * r * scale;
     const float clipped = e < cap ? e : cap;
     const bool is_known = r == r;
-    energy[i] = is_known ? static_cast<std::int32_t>(clipped + 0.5f) : 0;
+    energy[i] =
+        is_known ? static_cast<std::uint32_t>(static_cast<std::int32_t>(clipped + 0.5f)) : 0;
     unknown |= is_known ? 0 : 1;
-  }
-  if (!t.masked) return unknown != 0;
-  for (int i = t.left; i < t.right; ++i) {
-    const float r = image[i] - background[i];
-    known[i] = r == r ? 1 : 0;
   }
   return unknown != 0;
 }
 
-/// sums[i] += window sum of n columns from i on, by doubling.
-GLINT_INLINE void add_windows(const std::int32_t* columns, int n, int sign, std::int32_t* sums,
-                              int width) {
-  alignas(64) std::int32_t doubled[2][kRingWidth];
-  const std::int32_t* from = columns;
-  int offset = 0, left = width + n, which = 0;
-  for (int span = 1; span <= n; span *= 2) {
-    if ((n & span) != 0) {
-      const std::int32_t* __restrict part = from + offset;
-      std::int32_t* __restrict to = sums;
-      for (int i = 0; i < width; ++i) to[i] += sign * part[i];
-      offset += span;
-    }
-    if (2 * span > n) break;
-    left -= span;
-    std::int32_t* __restrict to = doubled[which];
-    const std::int32_t* __restrict a = from;
-    const std::int32_t* __restrict b = from + span;
-    for (int i = 0; i < left; ++i) to[i] = a[i] + b[i];
-    from = to;
-    which = 1 - which;
+GLINT_INLINE void read_known(WhitenTile& t, int y) {
+  const WhitenPass& p = *t.pass;
+  const float* __restrict image = p.image + y * p.image_pitch + t.x0 - p.outer;
+  const float* __restrict background = p.background + y * p.background_pitch + t.x0 - p.outer;
+  for (int i = t.left; i < t.right; ++i) {
+    const float r = image[i] - background[i];
+    t.entering[i] = r == r ? 1 : 0;
   }
 }
 
-/// Moves the boxes down to output row y: outer rows y - outer .. y + outer have entered.
-GLINT_INLINE void move_down(const WhitenTile& t, RingSums& sums, int y, int columns) {
-  const int outer = t.pass->outer, inner = t.pass->inner;
-  const std::int32_t* __restrict in = ring_row(t, sums, y + outer);
-  const std::int32_t* __restrict out = ring_row(t, sums, y - outer - 1);
-  const std::int32_t* __restrict inner_in = ring_row(t, sums, y + inner);
-  const std::int32_t* __restrict inner_out = ring_row(t, sums, y - inner - 1);
-  for (int i = 0; i < columns; ++i) {
-    sums.outer[i] += in[i] - out[i];
-    sums.inner[i] += inner_in[i] - inner_out[i];
+/// Sums from lane 0 up to each lane.
+GLINT_INLINE Words sums_up(Words v) {
+  const Words zero{};
+  v += window<kLanes - 1>(zero, v);
+  v += window<kLanes - 2>(zero, v);
+  v += window<kLanes - 4>(zero, v);
+  if constexpr (kLanes > 8) v += window<kLanes - 8>(zero, v);
+  return v;
+}
+
+/// Puts the sums along the entering row into `row`.
+GLINT_INLINE void sum_along(const WhitenTile& t, std::uint32_t* row) {
+  Words carry{};
+  for (int i = 0; i < columns(t); i += kLanes) {
+    Words v;
+    __builtin_memcpy(&v, t.entering + i, sizeof v);
+    v = sums_up(v);
+    const Words total = broadcast<Words>(v[kLanes - 1]);
+    v += carry;
+    carry += total;
+    __builtin_memcpy(row + kLead + i, &v, sizeof v);
   }
 }
 
-GLINT_INLINE void sum_rings(const WhitenTile& t, RingSums& sums) {
-  const int width = t.x1 - t.x0, outer = t.pass->outer, inner = t.pass->inner;
-  for (int i = 0; i < width; ++i) sums.ring[i] = 0;
-  add_windows(sums.outer, 2 * outer + 1, 1, sums.ring, width);
-  add_windows(sums.inner + outer - inner, 2 * inner + 1, -1, sums.ring, width);
+/// Lets row y into the sums; nothing lies outside the frame. True if a pixel is not known.
+bool enter_row(WhitenTile& t, int y) {
+  if (y < 0 || y >= t.pass->height) {
+    const auto bytes = sizeof(std::uint32_t) * static_cast<std::size_t>(kLead + columns(t));
+    __builtin_memset(ring_row(t, t.energy, y), 0, bytes);
+    if (t.masked) __builtin_memset(ring_row(t, t.known, y), 0, bytes);
+    return false;
+  }
+  const bool unknown = read_energies(t, y);
+  sum_along(t, ring_row(t, t.energy, y));
+  if (t.masked) {
+    read_known(t, y);
+    sum_along(t, ring_row(t, t.known, y));
+  }
+  return unknown;
 }
+
+/// Moves the boxes down to output row y: rows up to y + outer have entered.
+GLINT_INLINE void move_down(const WhitenTile& t, RingSums& sums, int y) {
+  const int outer = t.pass->outer, inner = t.pass->inner, n = kLead + columns(t);
+  const std::uint32_t* __restrict in = ring_row(t, sums, y + outer);
+  const std::uint32_t* __restrict out = ring_row(t, sums, y - outer - 1);
+  const std::uint32_t* __restrict inner_in = ring_row(t, sums, y + inner);
+  const std::uint32_t* __restrict inner_out = ring_row(t, sums, y - inner - 1);
+  std::uint32_t* __restrict outer_sum = sums.outer;
+  std::uint32_t* __restrict inner_sum = sums.inner;
+  for (int i = 0; i < n; ++i) {
+    outer_sum[i] += in[i] - out[i];
+    inner_sum[i] += inner_in[i] - inner_out[i];
+  }
+}
+
+/// Where the sums of the two boxes about tile column 0 begin and end.
+struct RingEnds {
+  const std::uint32_t *outer_end, *outer_begin, *inner_end, *inner_begin;
+
+  GLINT_INLINE RingEnds(const RingSums& sums, const WhitenPass& p)
+      : outer_end(sums.outer + kLead + 2 * p.outer),
+        outer_begin(sums.outer + kLead - 1),
+        inner_end(sums.inner + kLead + p.outer + p.inner),
+        inner_begin(sums.inner + kLead + p.outer - p.inner - 1) {}
+  GLINT_INLINE std::int32_t ring(int i) const {
+    return static_cast<std::int32_t>(outer_end[i] - outer_begin[i] - inner_end[i] + inner_begin[i]);
+  }
+};
 
 /// Pixels of a window about i that lie in [0, size).
 GLINT_INLINE int inside(int i, int half, int size) {
@@ -129,8 +162,9 @@ GLINT_INLINE void count_rings(WhitenTile& t, int y) {
 
 GLINT_INLINE void count_known(WhitenTile& t) {
   const float scale = t.pass->energy_scale;
+  const RingEnds known(t.known, *t.pass);
   for (int i = 0; i < t.x1 - t.x0; ++i) {
-    const std::int32_t count = t.known.ring[i];
+    const std::int32_t count = known.ring(i);
     t.mean_factor[i] = count > 0 ? 1 / (static_cast<float>(count) * scale) : 0;
   }
 }
@@ -140,33 +174,33 @@ GLINT_INLINE bool same_counts(const WhitenPass& p, int y, int before) {
          inside(y, p.inner, p.height) == inside(before, p.inner, p.height);
 }
 
-/// Noise sigma of row y: the largest of the frame's, the ring's and the structure's.
-GLINT_INLINE void noise_row(WhitenTile& t, int y) {
+/// Noise sigma of row y, the largest of the frame's, the ring's and the structure's, and z.
+GLINT_INLINE void whiten_row(WhitenTile& t, int y) {
   const WhitenPass& p = *t.pass;
-  const int width = t.x1 - t.x0;
-  for (int i = 0; i < width; ++i) {
-    const float mean = static_cast<float>(t.energy.ring[i]) * t.mean_factor[i];
-    const float ring = p.sigma * __builtin_sqrtf(mean);
-    t.noise[i] = ring > p.sigma ? ring : p.sigma;
-  }
-  if (p.structure == nullptr) return;
-  const float* structure = p.structure + y * p.structure_pitch + t.x0;
-  for (int i = 0; i < width; ++i) {
-    t.noise[i] = structure[i] > t.noise[i] ? structure[i] : t.noise[i];
+  const RingEnds energy(t.energy, p);
+  const float* structure =
+      p.structure == nullptr ? t.no_structure : p.structure + y * p.structure_pitch + t.x0;
+  const float* image = p.image + y * p.image_pitch + t.x0;
+  const float* background = p.background + y * p.background_pitch + t.x0;
+  const float* __restrict factor = t.mean_factor;
+  float* __restrict noise = t.noise;
+  float* __restrict z = t.z;
+  const float sigma = p.sigma, offset = p.offset, low = p.clip_low, high = p.clip_high;
+  const std::int32_t keep = p.keep_bits, flip = p.flip_bits;
+  for (int i = 0; i < t.x1 - t.x0; ++i) {
+    const float ring = sigma * __builtin_sqrtf(static_cast<float>(energy.ring(i)) * factor[i]);
+    const float calm = ring > sigma ? ring : sigma;
+    noise[i] = structure[i] > calm ? structure[i] : calm;
+    const float r = image[i] - background[i];
+    const float turned = math::from_bits((math::bits(r) & keep) ^ flip);
+    const float whitened = math::clamp(turned / noise[i] - offset, low, high);
+    z[i] = r == r ? whitened : 0.0f;
   }
 }
 
-GLINT_INLINE void z_row(WhitenTile& t, int y) {
+GLINT_INLINE void put_row(const WhitenTile& t, int y) {
   const WhitenPass& p = *t.pass;
   const int width = t.x1 - t.x0;
-  const float* image = p.image + y * p.image_pitch + t.x0;
-  const float* background = p.background + y * p.background_pitch + t.x0;
-  for (int i = 0; i < width; ++i) {
-    const float r = image[i] - background[i];
-    const float turned = math::from_bits((math::bits(r) & p.keep_bits) ^ p.flip_bits);
-    const float z = math::clamp(turned / t.noise[i] - p.offset, p.clip_low, p.clip_high);
-    t.z[i] = r == r ? z : 0.0f;
-  }
   float* out = p.whitened + y * p.whitened_pitch + t.x0;
   int i = 0;
   for (; p.stream && i + kLanes <= width; i += kLanes) stream(out + i, load<kLanes>(t.z + i));
@@ -187,43 +221,43 @@ GLINT_INLINE void keep_noise(const WhitenTile& t, int y) {
 }
 
 GLINT_INLINE void clear(const WhitenTile& t, RingSums& sums) {
-  const int outer = t.pass->outer;
-  const auto bytes = sizeof(std::int32_t) * static_cast<std::size_t>(t.x1 - t.x0 + 2 * outer);
-  for (int k = 0; k < 2 * outer + 2; ++k) __builtin_memset(sums.rows[k], 0, bytes);
+  const auto bytes = sizeof(std::uint32_t) * static_cast<std::size_t>(kLead + columns(t));
+  for (int k = 0; k < 2 * t.pass->outer + 2; ++k) __builtin_memset(sums.rows[k], 0, bytes);
   __builtin_memset(sums.outer, 0, bytes);
   __builtin_memset(sums.inner, 0, bytes);
 }
 
 /// False if a masked pixel turned up in a tile that was taken for one without.
 bool sweep_rows(WhitenTile& t) {
-  const int outer = t.pass->outer, columns = t.x1 - t.x0 + 2 * outer;
+  const int outer = t.pass->outer;
   int counted = -1;
+  clear(t, t.energy);
+  if (t.masked) clear(t, t.known);
   for (int y = t.y0 - 2 * outer; y < t.y1; ++y) {
     const bool found = enter_row(t, y + outer);
     if (found && !t.masked) return false;
-    move_down(t, t.energy, y, columns);
-    if (t.masked) move_down(t, t.known, y, columns);
+    move_down(t, t.energy, y);
+    if (t.masked) move_down(t, t.known, y);
     if (y < t.y0) continue;
-    sum_rings(t, t.energy);
     if (t.masked) {
-      sum_rings(t, t.known);
       count_known(t);
     } else if (counted < 0 || !same_counts(*t.pass, y, counted)) {
       count_rings(t, y);
       counted = y;
     }
-    noise_row(t, y);
-    z_row(t, y);
+    whiten_row(t, y);
+    put_row(t, y);
     keep_noise(t, y);
   }
   return true;
 }
 
 void sweep_without_rings(WhitenTile& t) {
-  for (int i = 0; i < t.x1 - t.x0; ++i) t.energy.ring[i] = 0, t.mean_factor[i] = 0;
+  clear(t, t.energy);
+  for (int i = 0; i < t.x1 - t.x0; ++i) t.mean_factor[i] = 0;
   for (int y = t.y0; y < t.y1; ++y) {
-    noise_row(t, y);
-    z_row(t, y);
+    whiten_row(t, y);
+    put_row(t, y);
     keep_noise(t, y);
   }
 }
@@ -233,16 +267,18 @@ void whiten_tile(const WhitenPass& pass, int x0, int x1, int y0, int y1) {
   t.pass = &pass;
   t.x0 = x0, t.x1 = x1, t.y0 = y0, t.y1 = y1;
   t.masked = false;
-  if (pass.outer == 0) return sweep_without_rings(t);
   t.left = x0 < pass.outer ? pass.outer - x0 : 0;
   t.right = pass.width - x0 + pass.outer;
-  if (t.right > x1 - x0 + 2 * pass.outer) t.right = x1 - x0 + 2 * pass.outer;
-  clear(t, t.energy);
-  if (sweep_rows(t)) return;
-  t.masked = true;
-  clear(t, t.energy);
-  clear(t, t.known);
-  sweep_rows(t);
+  if (t.right > columns(t)) t.right = columns(t);
+  __builtin_memset(t.entering, 0, sizeof t.entering);
+  __builtin_memset(t.no_structure, 0, sizeof t.no_structure);
+  if (pass.outer == 0) {
+    sweep_without_rings(t);
+  } else if (!sweep_rows(t)) {
+    t.masked = true;
+    sweep_rows(t);
+  }
+  if (pass.stream) fence();
 }
 
 }  // namespace

@@ -26,12 +26,7 @@ void for_blocks(int width, int height, Workers& workers, const F& f) {
   });
 }
 
-/// Floats as integers of the same order.
-std::int32_t key_of(float value) {
-  std::int32_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits < 0 ? bits ^ 0x7fffffff : bits;
-}
+/// The float of a key, as make_keys() makes them.
 float value_of(std::int32_t key) {
   const std::int32_t bits = key < 0 ? key ^ 0x7fffffff : key;
   float value;
@@ -42,9 +37,8 @@ float value_of(std::int32_t key) {
 /// Median of n > 0 values, the mean of the two middle ones, by bisection on their keys: every step
 /// is one vector pass over data in the first caches.
 float median_of(const float* values, std::int32_t* keys, int n, const PrepareFrameLanes& lanes) {
-  std::transform(values, values + n, keys, key_of);
-  const auto [least, most] = std::minmax_element(keys, keys + n);
-  std::int64_t low = *least, high = *most;
+  const KeyRange range = lanes.make_keys(values, keys, n);
+  std::int64_t low = range.least, high = range.most;
   while (low < high) {
     const std::int64_t middle = low + (high - low) / 2;
     if (lanes.count_up_to(keys, n, static_cast<std::int32_t>(middle)) > (n - 1) / 2) {
@@ -56,7 +50,7 @@ float median_of(const float* values, std::int32_t* keys, int n, const PrepareFra
   const auto lower = static_cast<std::int32_t>(low);
   std::int32_t upper = lower;
   if (lanes.count_up_to(keys, n, lower) <= n / 2) {
-    upper = *most;
+    upper = range.most;
     for (int i = 0; i < n; ++i) {
       if (keys[i] > lower && keys[i] < upper) upper = keys[i];
     }
