@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::size_t kBirthTile = 512;
 
-/// Sum of row sums, in row order: the same for any number of threads.
-double ordered_sum(const AlignedVector<float>& values, int width, int height,
-                   const Device& device) {
-  std::vector<double> rows(static_cast<std::size_t>(height));
+/// Sum of row sums, in row order: the same for any number of threads. `rows` is scratch.
+double ordered_sum(const AlignedVector<float>& values, int width, int height, const Device& device,
+                   std::vector<double>& rows) {
+  rows.resize(static_cast<std::size_t>(height));
   device.workers().for_tiles(rows.size(), [&](std::size_t y) {
     const float* row = values.data() + y * static_cast<std::size_t>(width);
     rows[y] = std::accumulate(row, row + width, 0.0);
@@ -119,7 +119,7 @@ void Births::look_at(const Frame& z) {
                             .intensity_low = static_cast<float>(config_.intensity_low),
                             .intensity_high = static_cast<float>(config_.intensity_high),
                             .score = {now_.score.data(), view.width, view.height, view.width}});
-  now_.total = ordered_sum(now_.score, view.width, view.height, device_);
+  now_.total = ordered_sum(now_.score, view.width, view.height, device_, row_sums_);
 }
 
 std::size_t Births::draw(const Frame& z, std::int64_t frame, double step,
@@ -168,7 +168,8 @@ std::size_t Births::draw_matched(std::int64_t frame, Particles& p, std::size_t a
   const auto count = static_cast<std::size_t>(config_.count);
   const auto speed = static_cast<float>(config_.speed_max);
   cells_.resize(count);
-  device_.run<Resample>({.weights = now_.score, .ancestors = cells_, .key = key});
+  device_.run<Resample>(
+      {.weights = now_.score, .ancestors = cells_, .key = key, .workspace = &draws_});
   const double mean = now_.total / (static_cast<double>(width) * height);
   for (std::size_t i = 0; i < count; ++i) {
     const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
@@ -194,7 +195,8 @@ std::size_t Births::draw_two_frame(std::int64_t frame, double step, const CellWo
   const int reach = static_cast<int>(std::ceil(config_.speed_max * step));
   for (auto* v : {&x_before_, &y_before_, &log_ratio_}) v->resize(count);
   cells_.resize(count);
-  device_.run<Resample>({.weights = before_.score, .ancestors = cells_, .key = key});
+  device_.run<Resample>(
+      {.weights = before_.score, .ancestors = cells_, .key = key, .workspace = &draws_});
 
   const double mean = before_.total / (static_cast<double>(width) * height);
   const double area = 4 * config_.speed_max * step * config_.speed_max * step;

@@ -9,6 +9,7 @@
 #include "glint/kernels/core/frame.hpp"
 #include "glint/kernels/core/particles.hpp"
 #include "glint/kernels/core/point_spread.hpp"
+#include "glint/kernels/resample/resample.hpp"
 
 namespace glint {
 
@@ -67,7 +68,9 @@ class Births {
   Image<float> map_;
   std::vector<std::uint32_t> cells_;
   AlignedVector<float> x_before_, y_before_, log_ratio_, updated_;
+  std::vector<double> row_sums_;
   CellWorkspace shares_;
+  ResampleWorkspace draws_;
 };
 
 }  // namespace glint

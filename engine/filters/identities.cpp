@@ -34,8 +34,9 @@ Identities::Track* Identities::claim(const Peak& peak, std::span<const std::uint
       vote->second += p.weight[i];
     }
   }
-  std::stable_sort(votes_.begin(), votes_.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::sort(votes_.begin(), votes_.end(), [](const auto& a, const auto& b) {
+    return a.second != b.second ? a.second > b.second : a.first < b.first;
+  });
   for (const auto& [label, weight] : votes_) {
     const auto track = std::find_if(tracks_.begin(), tracks_.end(),
                                     [label = label](const Track& t) { return t.id == label; });

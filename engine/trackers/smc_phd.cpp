@@ -8,6 +8,7 @@
 
 #include "glint/engine/filters/kmeans.hpp"
 #include "glint/engine/models/point_spread_fit.hpp"
+#include "glint/engine/text.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
 #include "glint/kernels/propagate/propagate.hpp"
 #include "glint/kernels/resample/resample.hpp"
@@ -36,9 +37,8 @@ SmcPhd::SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t s
   }
 }
 
-void SmcPhd::set_up(const Scan& scan, TrackLog& log) {
-  spread_ = PointSpread::of(config_.psf_sigma > 0 ? config_.psf_sigma
-                                                  : fit_point_spread(scan.whitened.view()));
+void SmcPhd::set_up(double psf_sigma) {
+  spread_ = PointSpread::of(psf_sigma);
   intensity_low_ = static_cast<float>(spread_.intensity_of_snr(config_.snr_low));
   intensity_high_ = static_cast<float>(spread_.intensity_of_snr(config_.snr_high));
   births_ = std::make_unique<Births>(
@@ -46,12 +46,28 @@ void SmcPhd::set_up(const Scan& scan, TrackLog& log) {
                   config_.birth_threshold, config_.speed_max, intensity_low_, intensity_high_,
                   config_.jitter},
       bank_, spread_, device_, seed_);
-  log.set_mode_names(bank_.names);
+}
+
+// Until some target is bright enough to show its shape, the default shape serves. The first frames
+// are no guide: their background is not known yet, and its structure passes for targets.
+void SmcPhd::fit(const Scan& scan) {
+  constexpr int kSettling = 15;
+  const auto sigma =
+      ++seen_ < kSettling ? std::nullopt : fit_point_spread(scan.whitened.view(), scan.raw.view());
+  if (sigma) {
+    fitted_ = true;
+    particles_.resize(0);  // their intensities were for another shape
+    set_up(*sigma);
+  } else if (!births_) {
+    set_up(SmcPhdConfig{}.psf_sigma);
+  }
 }
 
 void SmcPhd::step(const Scan& scan, TrackLog& log) {
   if (scan.whitened.view().empty()) return;
-  if (!births_) set_up(scan, log);
+  if (last_frame_ < 0) log.set_mode_names(bank_.names);
+  if (config_.psf_sigma > 0 && !births_) set_up(config_.psf_sigma);
+  if (config_.psf_sigma <= 0 && !fitted_) fit(scan);
   const double step = last_frame_ < 0 ? 1 : static_cast<double>(scan.frame - last_frame_);
   predict(scan.frame, step);
   give_birth(scan, step);
@@ -171,7 +187,8 @@ void SmcPhd::resample(std::int64_t frame) {
          .ancestors = ancestors_,
          .method = config_.resampling == "residual" ? Resampling::residual : Resampling::systematic,
          .key = random_key(seed_, index_of(frame), Purpose::resample),
-         .moved = moves});
+         .moved = moves,
+         .workspace = &draws_});
     std::fill(moved_.weight.begin(), moved_.weight.end(),
               static_cast<float>(expected_ / static_cast<double>(kept)));
   }
@@ -179,8 +196,10 @@ void SmcPhd::resample(std::int64_t frame) {
 }
 
 std::vector<std::string> SmcPhd::notes() const {
-  return {"psf_sigma = " + std::to_string(spread_.sigma) +
-          (config_.psf_sigma > 0 ? " px (given)" : " px (fitted)")};
+  const std::string how = config_.psf_sigma > 0 ? "given"
+                          : fitted_             ? "fitted to the brightest local maxima"
+                                    : "the default: nothing was bright enough to fit it";
+  return {"psf_sigma = " + number_text(spread_.sigma) + " px (" + how + ")"};
 }
 
 }  // namespace glint

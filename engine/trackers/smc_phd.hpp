@@ -60,7 +60,8 @@ class SmcPhd : public Tracker {
   const Particles& particles() const { return particles_; }
 
  private:
-  void set_up(const Scan& scan, TrackLog& log);
+  void set_up(double psf_sigma);
+  void fit(const Scan& scan);
   void predict(std::int64_t frame, double step);
   void give_birth(const Scan& scan, double step);
   void update(const Scan& scan);
@@ -72,12 +73,15 @@ class SmcPhd : public Tracker {
   std::uint64_t seed_;
   MotionBank bank_;
   PointSpread spread_;
+  int seen_ = 0;         ///< frames looked at for the fit
+  bool fitted_ = false;  ///< the point spread came from the data
   float intensity_low_ = 1, intensity_high_ = 1;
   std::unique_ptr<Births> births_;
   Particles particles_, moved_;
   std::size_t survivors_ = 0;
   AlignedVector<float> log_ratio_, updated_;
   CellWorkspace cells_;
+  ResampleWorkspace draws_;
   PeakFinder peaks_;
   std::vector<std::uint32_t> kmeans_members_, ancestors_;
   Identities identities_;

@@ -41,14 +41,14 @@ Scene scene_of(std::vector<ScriptedTarget> targets, int frames = 24, int width =
   return s;
 }
 
-struct Run {
+struct Tracked {
   TrackLog log;
   std::vector<double> expected;
 };
 
-Run track(const Scene& scene, const SmcPhdConfig& config, std::uint64_t seed = 1,
-          Device device = Device::tbb(1)) {
-  Run run;
+Tracked track(const Scene& scene, const SmcPhdConfig& config, std::uint64_t seed = 1,
+              Device device = Device::tbb(1)) {
+  Tracked run;
   SmcPhd tracker(config, device, seed);
   for (int k = 0; k < scene.frames; ++k) {
     Scan scan;
@@ -85,7 +85,7 @@ double worst_error(const TrackLog& log, const Scene& scene, int from) {
 
 TEST(SmcPhd, FollowsOneTargetUnderOneIdentity) {
   const Scene scene = scene_of({straight(2, 24, 6, 0.9, 8, 0.4, 16)});
-  const Run run = track(scene, paper_config(16));
+  const Tracked run = track(scene, paper_config(16));
   EXPECT_EQ(confirmed_ids(run.log).size(), 1u);
   EXPECT_LT(worst_error(run.log, scene, 6), 1.5);
 }
@@ -93,14 +93,14 @@ TEST(SmcPhd, FollowsOneTargetUnderOneIdentity) {
 TEST(SmcPhd, CountsTheTargetsThatAreThere) {
   const Scene scene =
       scene_of({straight(0, 24, 6, 0.9, 8, 0.4, 16), straight(0, 24, 30, -0.5, 30, -0.6, 16)});
-  const Run run = track(scene, paper_config(16));
+  const Tracked run = track(scene, paper_config(16));
   double mean = 0;
   for (int k = 10; k < 24; ++k) mean += run.expected[static_cast<std::size_t>(k)] / 14;
   EXPECT_NEAR(mean, 2, 0.35);
 }
 
 TEST(SmcPhd, SeesNothingInNoise) {
-  const Run run = track(scene_of({}, 30), paper_config(12));
+  const Tracked run = track(scene_of({}, 30), paper_config(12));
   double mean = 0;
   for (const double n : run.expected) mean += n / 30;
   EXPECT_LT(mean, 0.1);
@@ -109,7 +109,7 @@ TEST(SmcPhd, SeesNothingInNoise) {
 
 TEST(SmcPhd, EndsATrackWhoseTargetVanishes) {
   const Scene scene = scene_of({straight(0, 12, 6, 0.9, 8, 0.4, 18)});
-  const Run run = track(scene, paper_config(18));
+  const Tracked run = track(scene, paper_config(18));
   EXPECT_FALSE(run.log.at(11).empty());
   bool halted = false;
   for (const auto& p : run.log.online()) halted |= p.status == TrackStatus::halted;
@@ -119,14 +119,14 @@ TEST(SmcPhd, EndsATrackWhoseTargetVanishes) {
 
 TEST(SmcPhd, FollowsATargetAlongTheBorder) {
   const Scene scene = scene_of({straight(0, 24, 5, 0.9, 0, 0, 18)});
-  const Run run = track(scene, paper_config(18));
+  const Tracked run = track(scene, paper_config(18));
   EXPECT_LT(worst_error(run.log, scene, 6), 2.5);
 }
 
 TEST(SmcPhd, KeepsTwoCrossingTargetsApart) {
   const Scene scene =
       scene_of({straight(0, 24, 6, 1.1, 10, 0.8, 18), straight(0, 24, 32, -1.1, 10, 0.8, 18)});
-  const Run run = track(scene, paper_config(18));
+  const Tracked run = track(scene, paper_config(18));
   EXPECT_EQ(run.log.at(23).size(), 2u);
 }
 
@@ -168,17 +168,22 @@ TEST(SmcPhd, RefusesAnEmptyRangeOfStrengths) {
 }
 
 TEST(SmcPhd, FitsThePointSpreadWhenAsked) {
-  Scene scene =
-      scene_of({straight(0, 6, 10, 0.2, 10, 0, 30), straight(0, 6, 28, 0.1, 25, 0, 30)}, 6);
+  const Scene scene =
+      scene_of({straight(0, 18, 10, 0.2, 10, 0, 30), straight(0, 18, 28, 0.1, 25, 0, 30)}, 18);
   auto config = paper_config(30);
   config.psf_sigma = 0;
   SmcPhd tracker(config, Device::tbb(1), 1);
   TrackLog log;
-  Scan scan;
-  scan.whitened = Frame(render(scene, 1, 0));
-  tracker.step(scan, log);
-  ASSERT_EQ(tracker.notes().size(), 1u);
-  EXPECT_NEAR(std::stod(tracker.notes()[0].substr(12)), 0.7, 0.11);
+  for (int k = 0; k < scene.frames; ++k) {
+    Scan scan;
+    scan.frame = k, scan.time = k;
+    scan.whitened = Frame(render(scene, 1, k));
+    tracker.step(scan, log);
+    const std::string note = tracker.notes().at(0);
+    EXPECT_EQ(note.find("default") != std::string::npos, k < 14) << note;
+  }
+  EXPECT_NEAR(std::stod(tracker.notes().at(0).substr(12)), 0.7, 0.11);
+  EXPECT_EQ(log.at(17).size(), 2u);
 }
 
 }  // namespace
