@@ -21,9 +21,9 @@ struct IrClipScene {
   static constexpr std::string_view kName = "ir-clip";
   int frames = 120;
   double noise = 5;                   ///< [grey levels]
-  double snr_low = 8, snr_high = 12;  ///< [dB], spread over the targets
+  double snr_low = 8, snr_high = 11;  ///< [dB], spread over the targets
   double speed = 2;                   ///< [px/frame], mean
-  double sigma = 0.8;                 ///< of the point spread [px]
+  double sigma = 1.0;                 ///< of the point spread [px]
 };
 void describe(FieldList& list, IrClipScene& config);
 Scene make_scene(const IrClipScene& config);
