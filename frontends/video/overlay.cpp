@@ -79,7 +79,7 @@ class OverlayVideo : public ClosingSink {
   std::string path_;
   double frame_rate_;
   Warn warn_;
-  Painter painter_;
+  Painter painter_{640};  // H.264 of larger noise takes 100 ms a frame
   cv::VideoWriter writer_;
 };
 
@@ -124,7 +124,7 @@ class OverlayPicture : public ClosingSink {
 
  private:
   std::string path_;
-  Painter painter_;
+  Painter painter_{960};
   Frame frame_;
   Painter::Tails tails_;
   std::size_t most_ = 0;

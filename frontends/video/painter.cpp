@@ -10,7 +10,6 @@ namespace glint {
 namespace {
 
 constexpr std::size_t kTail = 20;  // points
-constexpr int kWidth = 960;        // [px] that small frames are scaled up to
 constexpr int kMaxScale = 4;
 constexpr int kShift = 4;  // fraction bits of OpenCV's sub-pixel coordinates
 constexpr int kLine = cv::LINE_AA;
@@ -80,7 +79,7 @@ cv::Mat Painter::grey(FrameView frame, double steady) {
   cv::Mat stretched, picture;
   const double gain = 235 / (high_ - low_);
   pixels.convertTo(stretched, CV_8U, gain, 10 - gain * low_);
-  scale_ = std::clamp((kWidth + frame.width - 1) / std::max(1, frame.width), 1, kMaxScale);
+  scale_ = std::clamp((width_ + frame.width - 1) / std::max(1, frame.width), 1, kMaxScale);
   cv::resize(stretched, stretched, {}, scale_, scale_, cv::INTER_CUBIC);
   cv::cvtColor(stretched, picture, cv::COLOR_GRAY2BGR);
   return picture;

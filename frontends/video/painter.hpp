@@ -20,6 +20,9 @@ class Painter {
   /// Where tracks have been lately. Key: tracker, track.
   using Tails = std::map<std::pair<std::size_t, std::int64_t>, std::deque<TrackPoint>>;
 
+  /// Small frames are scaled up, by a whole number, to about `width` [px].
+  explicit Painter(int width) : width_(width) {}
+
   /// Updates the tails with what each tracker reported of the frame.
   void follow(std::span<const std::vector<TrackPoint>> reported);
   const Tails& tails() const { return tails_; }
@@ -34,7 +37,7 @@ class Painter {
   cv::Point2d on_picture(const TrackPoint& point) const;
 
   Tails tails_;
-  int scale_ = 1;
+  int width_, scale_ = 1;
   double low_ = 0, high_ = 0;  // grey levels shown as black and white
 };
 

@@ -160,8 +160,8 @@ TEST(Overlay, ShowsEveryFrameScaledUpAndThePictureBoth) {
   video->finish(), picture->finish();
   const auto source = open(video->path());
   const auto frame = source->next();
-  EXPECT_EQ(frame->pixels.width, 960);
-  EXPECT_EQ(frame->pixels.height, 192);
+  EXPECT_EQ(frame->pixels.width, 640);
+  EXPECT_EQ(frame->pixels.height, 128);
   EXPECT_EQ(count(*source), 5);
   const cv::Mat both = cv::imread(folder / "o.png");
   EXPECT_EQ(both.cols, 960);
