@@ -3,10 +3,15 @@
 
 #include <string>
 
+#include "glint/engine/experiments/experiment.hpp"
+#include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/kernels/all.hpp"
 #include "glint/kernels/core/device.hpp"
+#ifdef GLINT_WITH_OPENCV
+#include "glint/frontends/video/video_file.hpp"
+#endif
 
 namespace glint::cli {
 namespace {
@@ -17,15 +22,32 @@ std::string isas() {
   return list;
 }
 
+template <class Entries>
+void print_entries(const char* title, const Entries& entries) {
+  fmt::print("{}\n", title);
+  for (const auto& entry : entries) fmt::print("  {:<16}{}\n", entry.name, entry.summary);
+}
+
+std::string video_support() {
+#ifdef GLINT_WITH_OPENCV
+  return "video, images (" + video_backends() + "), FITS, npy, scenes";
+#else
+  return "FITS, npy, scenes (built without OpenCV: no video, no images)";
+#endif
+}
+
 void print_info() {
   fmt::print("glint {} ({} build)\n", GLINT_VERSION, GLINT_BUILD_TYPE);
   fmt::print("instruction sets  {} (best: {})\n", isas(), name(best_isa()));
+  fmt::print("threads           {}\n", Device::tbb().workers().threads());
   fmt::print("devices           {}\n", Device::serial().description());
   fmt::print("                  {} (auto)\n", Device::tbb().description());
   fmt::print("kernels          ");
   for (const KernelEntry& kernel : all_kernels()) fmt::print(" {}", kernel.name);
-  fmt::print("\ntrackers\n");
-  for (const TrackerEntry& t : all_trackers()) fmt::print("  {:<16}{}\n", t.name, t.summary);
+  fmt::print("\ninputs            {}\n", video_support());
+  print_entries("trackers", all_trackers());
+  print_entries("scenes", all_scenes());
+  print_entries("experiments", all_experiments());
 }
 
 }  // namespace

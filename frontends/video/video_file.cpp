@@ -124,6 +124,15 @@ std::unique_ptr<Source> open_video(const std::string& path, const Warn& warn) {
   return std::make_unique<VideoSource>(path, warn);
 }
 
+std::string video_backends() {
+  std::string names = has_backend(cv::CAP_FFMPEG) ? "FFmpeg" : "";
+  if (has_backend(cv::CAP_GSTREAMER)) {
+    names += names.empty() ? "" : ", ";
+    names += "GStreamer (16-bit video)";
+  }
+  return names.empty() ? "motion JPEG only" : names;
+}
+
 void quiet_video_libraries() {
   constexpr const char* kFfmpegQuiet = "-8";  // AV_LOG_QUIET
   setenv("OPENCV_FFMPEG_LOGLEVEL", kFfmpegQuiet, 0);

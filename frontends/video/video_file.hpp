@@ -13,6 +13,9 @@ namespace glint {
 /// Warns if it ends before the frame that its header announces, and if 16 bits are read as 8.
 std::unique_ptr<Source> open_video(const std::string& path, const Warn& warn);
 
+/// What OpenCV reads videos with here: "FFmpeg", "FFmpeg, GStreamer (16-bit video)".
+std::string video_backends();
+
 /// Keeps OpenCV and FFmpeg from writing to stderr, unless their own environment variables say so.
 /// For programs: it changes the environment.
 void quiet_video_libraries();
