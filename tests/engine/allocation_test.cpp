@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// No allocation per frame once warm. An executable of its own: it counts every operator new.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include "glint/engine/scenario/scenes.hpp"
+#include "glint/engine/trackers/registry.hpp"
+
+namespace {
+
+std::atomic<std::size_t> allocations{0};
+
+void* counted(void* block) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(std::malloc(std::max<std::size_t>(size, 1)));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  const auto to = static_cast<std::size_t>(alignment);
+  return counted(std::aligned_alloc(to, (size + to - 1) / to * to));
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+
+namespace glint {
+namespace {
+
+constexpr std::int64_t kWarmUp = 100, kFrames = 140;
+constexpr std::size_t kPoints = 10000;
+
+// Two bright targets for all the time, rendered beforehand.
+class Film : public Source {
+ public:
+  Film() {
+    CrossingScene config;
+    config.frames = kFrames;
+    SceneSource source(make_scene(config), 1);
+    while (auto frame = source.next()) frames_.push_back(*frame);
+  }
+  std::optional<SourceFrame> next() override {
+    if (at_ == frames_.size()) return std::nullopt;
+    return frames_[at_++];
+  }
+
+ private:
+  std::vector<SourceFrame> frames_;
+  std::size_t at_ = 0;
+};
+
+std::unique_ptr<Tracker> standard_tracker(const Device& device) {
+  const TrackerEntry& entry = find_tracker("smc-phd");
+  return entry.make(entry.config(), device, 1);
+}
+
+TEST(Allocation, IsCounted) {
+  const std::size_t before = allocations;
+  const auto image = std::make_unique<Image<float>>(8, 8);
+  EXPECT_GE(allocations - before, 2u);
+}
+
+TEST(Allocation, NoneInAWarmPreparer) {
+  Film film;
+  FramePreparer preparer(FramesConfig{}, Device::tbb(2));
+  std::size_t before = 0;
+  for (std::int64_t frame = 0; auto next = film.next(); ++frame) {
+    if (frame == kWarmUp) before = allocations;
+    preparer.prepare(next->pixels, frame, next->time);
+  }
+  EXPECT_EQ(allocations - before, 0u);
+}
+
+TEST(Allocation, NoneInAWarmTracker) {
+  Film film;
+  const Device device = Device::tbb(2);
+  FramePreparer preparer(FramesConfig{}, device);
+  const auto tracker = standard_tracker(device);
+  TrackLog log;
+  log.reserve(kPoints);
+  std::size_t before = 0;
+  for (std::int64_t frame = 0; auto next = film.next(); ++frame) {
+    if (frame == kWarmUp) before = allocations;
+    tracker->step(preparer.prepare(next->pixels, frame, next->time), log);
+  }
+  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_FALSE(log.online().empty());
+}
+
+// Remembers the count as frames go by.
+class Counter : public Sink {
+ public:
+  void take(const ScanResult& result) override {
+    if (result.scan.frame == kWarmUp) at_warm_up_ = allocations;
+    at_last_ = allocations;
+  }
+  std::size_t since_warm_up() const { return at_last_ - at_warm_up_; }
+
+ private:
+  std::size_t at_warm_up_ = 0, at_last_ = 0;
+};
+
+TEST(Allocation, NoneInAWarmPipeline) {
+  Film film;
+  const Device device = Device::tbb(2);
+  Scheduler scheduler(device, FramePreparer(FramesConfig{}, device));
+  scheduler.add(standard_tracker(device), "smc-phd");
+  scheduler.reserve(kPoints);
+  Counter counter;
+  scheduler.add(counter);
+  EXPECT_EQ(scheduler.run(film), kFrames);
+  EXPECT_EQ(counter.since_warm_up(), 0u);
+}
+
+}  // namespace
+}  // namespace glint
