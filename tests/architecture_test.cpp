@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -43,10 +44,8 @@ std::vector<Include> includes_of(const std::string& room) {
 }
 
 bool starts_with_any(const std::string& text, const std::vector<std::string_view>& starts) {
-  for (const std::string_view start : starts) {
-    if (text.starts_with(start)) return true;
-  }
-  return false;
+  return std::ranges::any_of(starts,
+                             [&](std::string_view start) { return text.starts_with(start); });
 }
 
 /// Fails for every file of `rooms`, but those that start with one of `allowed`, that includes a

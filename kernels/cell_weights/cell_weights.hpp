@@ -51,7 +51,7 @@ enum class Psi {
 /// of 2^32 pixels or more, a negative window or clutter.
 struct CellWeights {
   static constexpr std::string_view name = "cell_weights";
-  static constexpr Tolerance tolerance{1e-9, 2e-5};  // float exp and float sums of one sign
+  static constexpr Tolerance tolerance{1e-9, 2e-6};  // float exp and float sums of one sign
 
   struct Args {
     int width = 0, height = 0, half_width = 2;

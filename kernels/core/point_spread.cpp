@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -24,9 +25,9 @@ double PointSpread::weight(int k, double offset) const {
 
 std::array<double, 2 * kMaxHalfWidth + 1> PointSpread::centred_weights() const {
   std::array<double, 2 * kMaxHalfWidth + 1> w{};
-  for (int k = -half_width; k <= half_width; ++k) {
-    w[static_cast<std::size_t>(k + half_width)] = weight(k, 0);
-  }
+  int k = -half_width;
+  for (double& share : std::span(w).first(static_cast<std::size_t>(width())))
+    share = weight(k++, 0);
   return w;
 }
 

@@ -33,6 +33,16 @@ using Floats = typename Vector<N>::F;
 template <int N>
 using Ints = typename Vector<N>::I;
 
+template <class V, class X, int... K>
+GLINT_INLINE V broadcast_to(X x, std::integer_sequence<int, K...>) {
+  return V{(static_cast<void>(K), x)...};
+}
+/// `x` in every lane. Not x + V{}: that is an addition, for the sake of -0.
+template <class V, class X>
+GLINT_INLINE V broadcast(X x) {
+  return broadcast_to<V>(x, std::make_integer_sequence<int, sizeof(V) / 4>{});
+}
+
 template <int N>
 GLINT_INLINE Floats<N> load(const float* p) {
   Floats<N> v;
@@ -49,8 +59,14 @@ GLINT_INLINE Floats<N> load(const std::uint16_t* p) {
   __builtin_memcpy(&v, p, sizeof v);
   return to_floats<N>(v);
 }
-template <class V>
-GLINT_INLINE void store(float* p, V v) {
+template <int N>
+GLINT_INLINE Ints<N> load(const std::int32_t* p) {
+  Ints<N> v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+template <class T, class V>
+GLINT_INLINE void store(T* p, V v) {
   __builtin_memcpy(p, &v, sizeof v);
 }
 
@@ -90,6 +106,11 @@ GLINT_INLINE Ints<N> count_from(int first) {
 template <class V, class M>
 GLINT_INLINE V where(M lanes, V a) {
   return (V)((M)a & lanes);
+}
+/// `a` where the lane of the comparison is true, `b` elsewhere.
+template <class V, class M>
+GLINT_INLINE V where(M lanes, V a, V b) {
+  return (V)(((M)a & lanes) | ((M)b & ~lanes));
 }
 
 /// Lane by lane; out of line where each lane costs a call anyway.

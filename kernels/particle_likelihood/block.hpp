@@ -10,6 +10,7 @@ namespace glint::GLINT_LANES::particle_likelihood {
 
 namespace position = glint::particle_likelihood;
 using V = Floats<kLanes>;
+using I = Ints<kLanes>;
 
 /// Particles that go through the steps together: their arrays stay in the first cache.
 inline constexpr int kBlock = 64;
@@ -19,7 +20,7 @@ struct alignas(64) Axis {
   float coordinate[kBlock];
   std::int32_t pixel[kBlock];  ///< that holds the particle; 0 if none does
   float offset[kBlock];        ///< from its centre; 0 if none holds it
-  std::int32_t seen[kBlock];   ///< whether one does
+  std::int32_t seen[kBlock];   ///< all bits if one does, else 0
   std::int32_t first, last;    ///< smallest and largest pixel
 };
 
@@ -34,19 +35,26 @@ GLINT_INLINE void jitter(const ParticlePass& pass, std::size_t begin, Axis& x, A
   }
 }
 
+/// position.hpp, many at a time.
 GLINT_INLINE void locate(Axis& axis, int size) {
-  std::int32_t first = size, last = 0;
-  for (int i = 0; i < kBlock; ++i) {
-    const float edge = position::from_edge(axis.coordinate[i]);
-    const bool seen = position::inside(edge, size);
-    const auto pixel = static_cast<std::int32_t>(seen ? edge : 0.0f);
-    axis.offset[i] = seen ? axis.coordinate[i] - static_cast<float>(pixel) : 0.0f;
-    axis.pixel[i] = pixel;
-    axis.seen[i] = seen;
-    first = pixel < first ? pixel : first;
-    last = pixel > last ? pixel : last;
+  const V limit = broadcast<V>(static_cast<float>(size));
+  I first = broadcast<I>(size), last{};
+#pragma GCC unroll 1
+  for (int i = 0; i < kBlock; i += kLanes) {
+    const V coordinate = load<kLanes>(axis.coordinate + i), edge = coordinate + 0.5f;
+    const I seen = (edge >= 0.0f) & (edge < limit);
+    const I pixel = __builtin_convertvector(where(seen, edge), I);
+    store(axis.pixel + i, pixel);
+    store(axis.offset + i, where(seen, coordinate - __builtin_convertvector(pixel, V)));
+    store(axis.seen + i, seen);
+    first = where(pixel < first, pixel, first);
+    last = where(pixel > last, pixel, last);
   }
-  axis.first = first, axis.last = last;
+  axis.first = size, axis.last = 0;
+  for (int i = 0; i < kLanes; ++i) {
+    axis.first = first[i] < axis.first ? first[i] : axis.first;
+    axis.last = last[i] > axis.last ? last[i] : axis.last;
+  }
 }
 
 /// Weights of the window's pixels, from -H to H, by particle.
@@ -63,11 +71,11 @@ GLINT_INLINE void polynomial_weights(const WeightPolynomials& p, const Axis& axi
     const V offset = load<kLanes>(axis.offset + i), square = offset * offset;
 #pragma GCC unroll 8
     for (int k = 0; k <= H; ++k) {
-      V even = V{} + p.even[k][Terms - 1], odd = V{} + p.odd[k][Terms - 2];
+      V even = broadcast<V>(p.even[k][Terms - 1]), odd = broadcast<V>(p.odd[k][Terms - 2]);
 #pragma GCC unroll 8
       for (int d = Terms - 2; d >= 0; --d) {
-        even = fma(even, square, V{} + p.even[k][d]);
-        if (d < Terms - 2) odd = fma(odd, square, V{} + p.odd[k][d]);
+        even = fma(even, square, broadcast<V>(p.even[k][d]));
+        if (d < Terms - 2) odd = fma(odd, square, broadcast<V>(p.odd[k][d]));
       }
       if (k > 0) store(weights.of[H - k] + i, fma(-offset, odd, even));
       store(weights.of[H + k] + i, k > 0 ? fma(offset, odd, even) : even);

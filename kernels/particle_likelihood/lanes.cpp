@@ -44,8 +44,8 @@ GLINT_INLINE Floats<8> matched(const ParticlePass& pass, const Axis& x, const Ax
       window[q] = load<8>(corner) * rows.of[0][i + q];
 #pragma GCC unroll 14
       for (int l = 1; l <= 2 * H; ++l) {
-        window[q] =
-            fma(load<8>(corner + l * pass.pitch), Floats<8>{} + rows.of[l][i + q], window[q]);
+        window[q] = fma(load<8>(corner + l * pass.pitch), broadcast<Floats<8>>(rows.of[l][i + q]),
+                        window[q]);
       }
     }
     transpose(window);
@@ -55,6 +55,24 @@ GLINT_INLINE Floats<8> matched(const ParticlePass& pass, const Axis& x, const Ax
     }
   }
   return sum;
+}
+
+/// P-PHD (13): I A - I^2 B / 2.
+template <int H>
+GLINT_INLINE void finish(const ParticlePass& pass, std::size_t begin, int count, const Axis& x,
+                         const Axis& y, const Weights<H>& columns, const Weights<H>& rows,
+                         const float* sums) {
+  const V impossible = broadcast<V>(-__builtin_inff());
+  for (int i = 0; i < count; i += kLanes) {
+    const int n = count - i < kLanes ? count - i : kLanes;
+    const V intensity = load_first<kLanes>(pass.intensity + begin + i, n);
+    const V energy = load<kLanes>(columns.energy + i) * load<kLanes>(rows.energy + i);
+    const V ratio = intensity * fma(-0.5f * intensity, energy, load<kLanes>(sums + i));
+    // The difference of a number and itself is 0 if it is finite.
+    const I seen =
+        load<kLanes>(x.seen + i) & load<kLanes>(y.seen + i) & (intensity - intensity == 0.0f);
+    store_first(pass.log_ratio + begin + i, where(seen, ratio, impossible), n);
+  }
 }
 
 template <int H>
@@ -71,14 +89,7 @@ template <int H>
   weigh(pass.weights, y, pass.height, rows);
   alignas(64) float sums[kBlock];
   for (int i = 0; i < count; i += 8) store(sums + i, matched(pass, x, y, columns, rows, i));
-  for (int i = 0; i < count; ++i) {
-    const float intensity = pass.intensity[begin + static_cast<std::size_t>(i)];
-    const float energy = columns.energy[i] * rows.energy[i];
-    const float ratio = intensity * math::fma(-0.5f * intensity, energy, sums[i]);
-    // P-PHD (13): I A - I^2 B / 2. The difference of a number and itself is 0 if it is finite.
-    const bool seen = (x.seen[i] & y.seen[i]) != 0 && intensity - intensity == 0.0f;
-    pass.log_ratio[begin + static_cast<std::size_t>(i)] = seen ? ratio : -__builtin_inff();
-  }
+  finish(pass, begin, count, x, y, columns, rows, sums);
 }
 
 template <int H>

@@ -20,7 +20,7 @@ namespace glint {
 struct ParticleLikelihood {
   static constexpr std::string_view name = "particle_likelihood";
   /// Polynomial fit of the weights (1e-5 a pixel at I = 10) plus float sums.
-  static constexpr Tolerance tolerance{2e-3, 1e-4};
+  static constexpr Tolerance tolerance{1e-4, 1e-5};
 
   struct Args {
     FrameView frame;  ///< z, unit noise; has an Image's zero margin around it

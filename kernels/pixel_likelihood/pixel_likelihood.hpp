@@ -26,7 +26,7 @@ struct Hit {
 struct PixelLikelihood {
   static constexpr std::string_view name = "pixel_likelihood";
   /// Of the map, for |z| <= 8: float sums over at most 15 x 15 pixels.
-  static constexpr Tolerance tolerance{2e-4, 2e-5};
+  static constexpr Tolerance tolerance{1e-5, 1e-6};
 
   struct Args {
     std::variant<ImageView<const float>, ImageView<const std::uint16_t>> frame;

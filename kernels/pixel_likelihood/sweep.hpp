@@ -33,8 +33,9 @@ struct Taps {
 
 template <int H, class T>
 GLINT_INLINE Taps<H> make_taps(const PixelPass<T>& pass) {
-  Taps<H> taps{V{} + pass.offset, V{} + pass.gain, V{} + pass.threshold, {}};
-  for (int k = 1; k <= H; ++k) taps.relative[k] = V{} + pass.relative[k];
+  Taps<H> taps{
+      broadcast<V>(pass.offset), broadcast<V>(pass.gain), broadcast<V>(pass.threshold), {}};
+  for (int k = 1; k <= H; ++k) taps.relative[k] = broadcast<V>(pass.relative[k]);
   return taps;
 }
 
@@ -42,11 +43,11 @@ GLINT_INLINE Taps<H> make_taps(const PixelPass<T>& pass) {
 template <int H>
 GLINT_INLINE V clipped_energy(const float* squared, int x, int size) {
   const Ints<kLanes> at = count_from<kLanes>(x);
-  V sum = V{} + squared[0];
+  V sum = broadcast<V>(squared[0]);
 #pragma GCC unroll 7
   for (int k = 1; k <= H; ++k) {
-    sum += where(at >= k, V{} + squared[k]);
-    sum += where(at < size - k, V{} + squared[k]);
+    sum += where(at >= k, broadcast<V>(squared[k]));
+    sum += where(at < size - k, broadcast<V>(squared[k]));
   }
   return sum;
 }

@@ -67,9 +67,8 @@ void structure_tile(const StructurePass& pass, int x0, int x1, int y0, int y1) {
     } else {
       gradient_row(rows.background[(y + 5) % 3], rows.background[(y + 6) % 3],
                    rows.background[(y + 7) % 3], rows.gradient, n);
-      for (int i = 0; i < n; ++i) {
-        if (first + i < 0 || first + i >= pass.width) rows.gradient[i] = 0;
-      }
+      for (int i = 0; first + i < 0; ++i) rows.gradient[i] = 0;
+      for (int i = pass.width - first; i < n; ++i) rows.gradient[i] = 0;
       const float* g = rows.gradient + 1;
       for (int i = 0; i < width; ++i) {
         dilated[i] = larger(larger(larger(larger(g[i], g[i + 1]), g[i + 2]), g[i + 3]), g[i + 4]);

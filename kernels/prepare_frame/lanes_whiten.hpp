@@ -31,7 +31,9 @@ struct WhitenTile {
   int left, right;  ///< columns of the energies that lie in the frame
   bool masked;      ///< some pixel of the tile or its surroundings is not known
   RingSums energy, known;
-  alignas(64) std::uint32_t entering[kRingWidth];  ///< a row before it is summed up
+  alignas(64) std::uint32_t entering[kRingWidth];             ///< a row before it is summed up
+  alignas(64) std::int32_t outer_columns[kTileColumns + 32];  ///< columns of the frame in a box
+  alignas(64) std::int32_t inner_columns[kTileColumns + 32];
   alignas(64) float mean_factor[kTileColumns + 32];
   alignas(64) float noise[kTileColumns + 32], z[kTileColumns + 32];
   alignas(64) float no_structure[kTileColumns + 32];
@@ -44,6 +46,25 @@ GLINT_INLINE std::uint32_t* ring_row(const WhitenTile& t, RingSums& sums, int y)
   return sums.rows[(y + 4 * period) % period];
 }
 
+/// Asks for n floats before they are needed: a tile's rows are too short for the machine to foresee.
+GLINT_INLINE void ask_for(const float* row, int n) {
+  for (int i = 0; i < n; i += 16) __builtin_prefetch(row + i);
+}
+
+/// Asks for what the sweep reads below row y.
+GLINT_INLINE void ask_ahead(const WhitenTile& t, int y) {
+  constexpr int kAhead = 2;
+  const WhitenPass& p = *t.pass;
+  const int width = t.x1 - t.x0, entering = y + p.outer + kAhead, leaving = y + kAhead;
+  if (entering >= 0 && entering < p.height) {
+    ask_for(p.image + entering * p.image_pitch + t.x0, width);
+    ask_for(p.background + entering * p.background_pitch + t.x0, width);
+  }
+  if (p.structure != nullptr && leaving >= t.y0 && leaving < t.y1) {
+    ask_for(p.structure + leaving * p.structure_pitch + t.x0, width);
+  }
+}
+
 /// Energies of row y of the frame; true if a pixel is not known.
 GLINT_INLINE bool read_energies(WhitenTile& t, int y) {
   const WhitenPass& p = *t.pass;
@@ -51,15 +72,15 @@ GLINT_INLINE bool read_energies(WhitenTile& t, int y) {
   const float* __restrict background = p.background + y * p.background_pitch + t.x0 - p.outer;
   std::uint32_t* __restrict energy = t.entering;
   const float inverse = p.inverse_sigma, scale = p.energy_scale, cap = p.energy_cap;
+  const int left = t.left, right = t.right;
   std::int32_t unknown = 0;
-  for (int i = t.left; i < t.right; ++i) {
+  for (int i = left; i < right; ++i) {
     const float r = (image[i] - background[i]) * inverse;
     const float e = r * r * scale;
     const float clipped = e < cap ? e : cap;
-    const bool is_known = r == r;
-    energy[i] =
-        is_known ? static_cast<std::uint32_t>(static_cast<std::int32_t>(clipped + 0.5f)) : 0;
-    unknown |= is_known ? 0 : 1;
+    const std::int32_t known = r == r ? -1 : 0;
+    energy[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(clipped + 0.5f) & known);
+    unknown |= ~known;
   }
   return unknown != 0;
 }
@@ -68,9 +89,11 @@ GLINT_INLINE void read_known(WhitenTile& t, int y) {
   const WhitenPass& p = *t.pass;
   const float* __restrict image = p.image + y * p.image_pitch + t.x0 - p.outer;
   const float* __restrict background = p.background + y * p.background_pitch + t.x0 - p.outer;
-  for (int i = t.left; i < t.right; ++i) {
+  std::uint32_t* __restrict known = t.entering;
+  const int left = t.left, right = t.right;
+  for (int i = left; i < right; ++i) {
     const float r = image[i] - background[i];
-    t.entering[i] = r == r ? 1 : 0;
+    known[i] = r == r ? 1 : 0;
   }
 }
 
@@ -152,20 +175,36 @@ GLINT_INLINE int inside(int i, int half, int size) {
 /// 1 / (pixels in the ring * energy of one sigma), for row y of a frame without masked pixels.
 GLINT_INLINE void count_rings(WhitenTile& t, int y) {
   const WhitenPass& p = *t.pass;
-  const int outer = inside(y, p.outer, p.height), inner = inside(y, p.inner, p.height);
+  const int outer_rows = inside(y, p.outer, p.height), inner_rows = inside(y, p.inner, p.height);
+  const std::int32_t* __restrict outer = t.outer_columns;
+  const std::int32_t* __restrict inner = t.inner_columns;
+  float* __restrict factor = t.mean_factor;
+  const float scale = p.energy_scale;
+  const int width = t.x1 - t.x0;
+  for (int i = 0; i < width; ++i) {
+    const std::int32_t count = outer_rows * outer[i] - inner_rows * inner[i];
+    const float inverse = 1 / (static_cast<float>(count) * scale);
+    factor[i] = count > 0 ? inverse : 0;
+  }
+}
+
+GLINT_INLINE void count_columns(WhitenTile& t) {
+  const WhitenPass& p = *t.pass;
   for (int i = 0; i < t.x1 - t.x0; ++i) {
-    const int x = t.x0 + i;
-    const int count = outer * inside(x, p.outer, p.width) - inner * inside(x, p.inner, p.width);
-    t.mean_factor[i] = count > 0 ? 1 / (static_cast<float>(count) * p.energy_scale) : 0;
+    t.outer_columns[i] = inside(t.x0 + i, p.outer, p.width);
+    t.inner_columns[i] = inside(t.x0 + i, p.inner, p.width);
   }
 }
 
 GLINT_INLINE void count_known(WhitenTile& t) {
   const float scale = t.pass->energy_scale;
   const RingEnds known(t.known, *t.pass);
-  for (int i = 0; i < t.x1 - t.x0; ++i) {
+  float* __restrict factor = t.mean_factor;
+  const int width = t.x1 - t.x0;
+  for (int i = 0; i < width; ++i) {
     const std::int32_t count = known.ring(i);
-    t.mean_factor[i] = count > 0 ? 1 / (static_cast<float>(count) * scale) : 0;
+    const float inverse = 1 / (static_cast<float>(count) * scale);
+    factor[i] = count > 0 ? inverse : 0;
   }
 }
 
@@ -187,7 +226,8 @@ GLINT_INLINE void whiten_row(WhitenTile& t, int y) {
   float* __restrict z = t.z;
   const float sigma = p.sigma, offset = p.offset, low = p.clip_low, high = p.clip_high;
   const std::int32_t keep = p.keep_bits, flip = p.flip_bits;
-  for (int i = 0; i < t.x1 - t.x0; ++i) {
+  const int width = t.x1 - t.x0;
+  for (int i = 0; i < width; ++i) {
     const float ring = sigma * __builtin_sqrtf(static_cast<float>(energy.ring(i)) * factor[i]);
     const float calm = ring > sigma ? ring : sigma;
     noise[i] = structure[i] > calm ? structure[i] : calm;
@@ -234,6 +274,7 @@ bool sweep_rows(WhitenTile& t) {
   clear(t, t.energy);
   if (t.masked) clear(t, t.known);
   for (int y = t.y0 - 2 * outer; y < t.y1; ++y) {
+    ask_ahead(t, y);
     const bool found = enter_row(t, y + outer);
     if (found && !t.masked) return false;
     move_down(t, t.energy, y);
@@ -272,6 +313,7 @@ void whiten_tile(const WhitenPass& pass, int x0, int x1, int y0, int y1) {
   if (t.right > columns(t)) t.right = columns(t);
   __builtin_memset(t.entering, 0, sizeof t.entering);
   __builtin_memset(t.no_structure, 0, sizeof t.no_structure);
+  count_columns(t);
   if (pass.outer == 0) {
     sweep_without_rings(t);
   } else if (!sweep_rows(t)) {

@@ -32,7 +32,7 @@ struct MotionMode {
 struct Propagate {
   static constexpr std::string_view name = "propagate";
   /// Of every component, for |x| <= 1e4 px: float arithmetic.
-  static constexpr Tolerance tolerance{2e-3, 1e-6};
+  static constexpr Tolerance tolerance{5e-4, 1e-6};
   static constexpr std::size_t kMaxModes = 8;
 
   struct Args {
