@@ -46,7 +46,8 @@ GLINT_INLINE std::uint32_t* ring_row(const WhitenTile& t, RingSums& sums, int y)
   return sums.rows[(y + 4 * period) % period];
 }
 
-/// Asks for n floats before they are needed: a tile's rows are too short for the machine to foresee.
+/// Asks for n floats before they are needed: a tile's rows are too short for the machine to
+/// foresee.
 GLINT_INLINE void ask_for(const float* row, int n) {
   for (int i = 0; i < n; i += 16) __builtin_prefetch(row + i);
 }
