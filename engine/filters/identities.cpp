@@ -63,9 +63,9 @@ bool Identities::crowded(const Peak& peak) const {
 }
 
 void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32_t> members,
-                        Particles& particles, std::int64_t frame, double time,
+                        Particles& particles, std::int64_t frame, double time, double step,
                         double velocity_scale, std::size_t modes, TrackLog& log) {
-  for (auto& t : tracks_) t.seen = false, t.x += t.vx, t.y += t.vy;
+  for (auto& t : tracks_) t.seen = false, t.x += step * t.vx, t.y += step * t.vy;
   const auto of = [&](const Peak& p) { return members.subspan(p.first, p.last - p.first); };
   // Known tracks first, so that no new one takes their place.
   claimed_.assign(peaks.size(), 0);

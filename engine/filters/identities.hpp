@@ -24,11 +24,11 @@ class Identities {
   explicit Identities(const IdentityConfig& config) : config_(config) {}
 
   /// Labels the members of each peak in `particles` and reports the tracks of this frame. Peaks
-  /// come by falling mass: of two that claim one label the heavier has it.
+  /// come by falling mass: of two that claim one label the heavier has it. `step` is the number of
+  /// frames since the last call; `velocity_scale` takes px a frame to px/s.
   void assign(std::span<const Peak> peaks, std::span<const std::uint32_t> members,
-              Particles& particles, std::int64_t frame, double time, double velocity_scale,
-              std::size_t modes, TrackLog& log);
-  std::size_t live() const { return tracks_.size(); }
+              Particles& particles, std::int64_t frame, double time, double step,
+              double velocity_scale, std::size_t modes, TrackLog& log);
 
  private:
   struct Track {
@@ -36,7 +36,7 @@ class Identities {
     int hits = 0, misses = 0;
     bool seen = false;
     double x = 0, y = 0, vx = 0,
-           vy = 0;  ///< predicted or seen at the present frame; velocity a step
+           vy = 0;  ///< predicted or seen at the present frame; velocity a frame
   };
   Track* claim(const Peak& peak, std::span<const std::uint32_t> members,
                const Particles& particles);

@@ -4,11 +4,15 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "glint/engine/metrics/metrics.hpp"
 
 namespace glint {
+
+/// Memory grows with the frames, so a slip in a table must not ask for all of it.
+inline constexpr std::int64_t kMaxFrames = 10'000'000;
 
 /// One more than the last frame that `points` speak of.
 template <class P>
@@ -19,9 +23,13 @@ std::int64_t frame_count(std::span<const P> points) {
 }
 
 /// The points of each frame 0 to `frames` - 1, in their order; later ones are left out. Throws
-/// std::invalid_argument for a negative frame.
+/// std::invalid_argument for a negative frame and for more than kMaxFrames frames.
 template <class P>
 std::vector<std::vector<P>> by_frame(std::span<const P> points, std::int64_t frames) {
+  if (frames < 0 || frames > kMaxFrames) {
+    throw std::invalid_argument("at most 10000000 frames can be scored, got " +
+                                std::to_string(frames) + "; check the column frame");
+  }
   std::vector<std::vector<P>> sorted(static_cast<std::size_t>(frames));
   for (const P& point : points) {
     if (point.frame < 0) throw std::invalid_argument("frames are counted from 0");

@@ -150,8 +150,8 @@ void SmcPhd::report(const Scan& scan, double step, TrackLog& log) {
   if (config_.states == "kmeans") {
     const auto states = kmeans_states(
         particles_, random_key(seed_, index_of(scan.frame), Purpose::kmeans), kmeans_members_);
-    identities_.assign(states, kmeans_members_, particles_, scan.frame, scan.time, velocity_scale,
-                       modes, log);
+    identities_.assign(states, kmeans_members_, particles_, scan.frame, scan.time, step,
+                       velocity_scale, modes, log);
     return;
   }
   const double radius =
@@ -159,8 +159,8 @@ void SmcPhd::report(const Scan& scan, double step, TrackLog& log) {
   const auto peaks =
       peaks_.find(particles_, cells_.runs, scan.whitened.width(), scan.whitened.height(),
                   spread_.half_width, {config_.existence, radius});
-  identities_.assign(peaks, peaks_.members(), particles_, scan.frame, scan.time, velocity_scale,
-                     modes, log);
+  identities_.assign(peaks, peaks_.members(), particles_, scan.frame, scan.time, step,
+                     velocity_scale, modes, log);
 }
 
 void SmcPhd::resample(std::int64_t frame) {

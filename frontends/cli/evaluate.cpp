@@ -140,8 +140,10 @@ void add_evaluate(CLI::App& app) {
   command->add_option("--order", request->options.order, "Order of OSPA and GOSPA")
       ->check(CLI::Range(1.0, 100.0))
       ->capture_default_str();
-  command->add_option("--frames", request->options.frames,
-                      "Frames 0 to N-1 are scored; by default up to the last one in either table");
+  command
+      ->add_option("--frames", request->options.frames,
+                   "Frames 0 to N-1 are scored; by default up to the last one in either table")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{10'000'000}));
   command->add_option("--baseline", request->baseline,
                       "Points of a single-frame detector (CSV), scored at the threshold that gives "
                       "as many false points as the tracks have");

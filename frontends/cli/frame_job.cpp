@@ -22,6 +22,15 @@ std::vector<std::string> words(const std::string& text) {
   return list;
 }
 
+/// Two of one name would share their settings and write over each other's tracks.
+void refuse_twice(const std::vector<std::string>& trackers) {
+  for (auto t = trackers.begin(); t != trackers.end(); ++t) {
+    if (std::find(trackers.begin(), t, *t) != t) {
+      throw UsageError("tracker " + *t + " is given twice; name each once");
+    }
+  }
+}
+
 /// A setting that decides which sections there are must come before those that stand in them.
 bool sets_tracker(const std::string& assignment) {
   const std::string key = assignment.substr(0, assignment.find('='));
@@ -116,6 +125,7 @@ FrameJob settle(const FrameOptions& options, const std::vector<std::string>& mor
   }
   const ConfigSection run = section_named(all, "run");
   std::vector<std::string> trackers = words(run.as<RunConfig>().tracker);
+  refuse_twice(trackers);
   auto used = used_sections(all, trackers, options.inputs, more);
   for (const auto& set : options.sets) apply_set(set, used);
   return {options.inputs, std::move(trackers), std::move(used), make_device(run.as<RunConfig>()),

@@ -17,6 +17,7 @@ namespace glint {
 namespace {
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets write it
 
 std::string_view trimmed(std::string_view cell) {
   constexpr std::string_view kBlank = " \t\r";
@@ -101,6 +102,7 @@ void read_csv(const std::string& path, std::span<const std::string_view> require
   std::vector<std::size_t> at;
   std::string line;
   for (std::int64_t number = 1; std::getline(file, line); ++number) {
+    if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (line.starts_with('#') || trimmed(line).empty()) continue;
     split(line, cells);
     if (at.empty()) {

@@ -48,7 +48,7 @@ enum class Psi {
 /// over the window around it, w' = w l / (clutter + B), or 0 where that is 0 / 0. P-PHD (14)-(16),
 /// with clutter = 1 in ratio units. A particle outside the frame, by the pixel floor(x + .5), or of
 /// NaN log ratio has weight 0. Throws std::invalid_argument for arrays of unlike lengths, a frame
-/// of 2^32 pixels or more, a negative window or clutter.
+/// of more than 65535 pixels a side, a negative window or clutter.
 struct CellWeights {
   static constexpr std::string_view name = "cell_weights";
   static constexpr Tolerance tolerance{1e-9, 2e-6};  // float exp and float sums of one sign

@@ -19,7 +19,6 @@ GLINT_INLINE void read(const float* from, int count, Axis& axis) {
 
 template <int H>
 GLINT_INLINE void prefetch(const ParticlePass& pass, const Axis& x, const Axis& y) {
-  if (y.last - y.first < kSpread) return;
   for (int i = 0; i < kBlock; ++i) {
     const float* centre = pass.frame + y.pixel[i] * pass.pitch + x.pixel[i];
 #pragma GCC unroll 15
@@ -83,7 +82,7 @@ template <int H>
   if (pass.jitter > 0) jitter(pass, begin, x, y);
   locate(x, pass.width);
   locate(y, pass.height);
-  prefetch<H>(pass, x, y);
+  if (y.last - y.first >= kSpread) prefetch<H>(pass, x, y);
   Weights<H> columns, rows;
   weigh(pass.weights, x, pass.width, columns);
   weigh(pass.weights, y, pass.height, rows);

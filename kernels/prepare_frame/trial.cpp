@@ -21,7 +21,7 @@ template <class T>
 std::shared_ptr<GreyProblem<T>> grey_problem(int width, int height, int channels, bool masked) {
   auto p = std::make_shared<GreyProblem<T>>();
   const int pitch = width * channels + 5;
-  p->pixels.resize(static_cast<std::size_t>(pitch * height));
+  p->pixels.resize(static_cast<std::size_t>(pitch) * static_cast<std::size_t>(height));
   const RandomKey key = random_key(3, 0, Purpose::trial);
   for (std::size_t i = 0; i < p->pixels.size(); ++i) {
     const std::uint32_t word = random_words(key, static_cast<std::uint32_t>(i)).w[0];

@@ -226,6 +226,14 @@ TEST(Evaluation, OfNothingIsUndefinedWhereItMustBe) {
   EXPECT_TRUE(std::isnan(e.false_points_per_frame));
 }
 
+TEST(Evaluation, RefusesFramesThatNoMemoryHolds) {
+  const std::vector<TruthPoint> far{{1'000'000'000'000, 0, 1, 1}};
+  EXPECT_THROW(evaluate(far, {}, {}), std::invalid_argument);
+  EvaluationOptions negative;
+  negative.frames = -3;
+  EXPECT_THROW(evaluate({}, {}, negative), std::invalid_argument);
+}
+
 TEST(DetectorBaseline, FindsTheLowestFairThreshold) {
   const std::vector<TruthPoint> truth{truth_at(0, 0, 0), truth_at(1, 0, 0), truth_at(2, 0, 0)};
   const std::vector<Detection> detections{{0, 0, 0, 9},  {1, 50, 0, 8}, {1, 0, 0, 7},

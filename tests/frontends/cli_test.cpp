@@ -86,6 +86,9 @@ TEST(Cli, WrongUseIsExitCodeTwoAndOneLine) {
   expect_error(glint(folder, run + "--set no_such=1"), 2, "no_such");
   expect_error(glint(folder, run + "--set birth_particles=0"), 2, "must be in");
   expect_error(glint(folder, run + "--seed x"), 2, "run.seed");
+  expect_error(glint(folder, run + "--tracker smc-phd"), 2, "given twice");
+  expect_error(glint(folder, "experiment phd-5.1 --seed -1"), 2, "--seed");
+  expect_error(glint(folder, "evaluate --truth t --tracks t --frames -3"), 2, "--frames");
   expect_error(glint(folder, run + "--out " + (folder / "no/t.csv")), 2, "no/t.csv");
   expect_error(glint(folder, run + "--config " + (folder / "no.toml")), 2, "no.toml");
   folder.write("c.toml", "[frames]\n\npolarity = \"up\"\n");

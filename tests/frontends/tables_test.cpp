@@ -39,6 +39,15 @@ TEST(Tables, ColumnsAreFoundByNameAndOthersPassedOver) {
   EXPECT_DOUBLE_EQ(truth[1].x, -30);
 }
 
+TEST(Tables, AByteOrderMarkIsPassedOver) {
+  const Folder folder;
+  const auto truth = read_truth(folder.write("t.csv",
+                                             "\xEF\xBB\xBF"
+                                             "frame,track_id,x,y\n5,1,2,3\n"));
+  ASSERT_EQ(truth.size(), 1u);
+  EXPECT_EQ(truth[0].frame, 5);
+}
+
 TEST(Tables, MistakesAreNamedWithFileAndLine) {
   const Folder folder;
   const auto refused = [&](const std::string& content) {
