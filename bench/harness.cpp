@@ -111,7 +111,8 @@ std::vector<Timing> time_all(const std::vector<Case>& cases, const Budget& budge
 }  // namespace
 
 std::string verdict(const Figure& figure) {
-  const auto [reached, goal, at_most] = figure.target;
+  const std::optional<double>&reached = figure.target.reached, &goal = figure.target.goal;
+  const bool at_most = figure.target.at_most;
   const auto meets = [&](double wanted) {
     return at_most ? figure.value <= wanted : figure.value >= wanted;
   };
@@ -127,7 +128,7 @@ std::string verdict(const Figure& figure) {
 }
 
 void Suite::add_threads(const std::string& name, double units,
-                        std::function<void(const Device&)> run) {
+                        const std::function<void(const Device&)>& run) {
   const int widest = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 2);
   for (int threads = 1; threads <= widest; ++threads) {
     add({name + " x" + std::to_string(threads), threads, units,

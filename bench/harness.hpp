@@ -54,7 +54,8 @@ class Suite {
 
   void add(Case c) { cases_.push_back(std::move(c)); }
   /// `NAME x1` and, with a second core, `NAME x2`: `run` called with a tbb device of that width.
-  void add_threads(const std::string& name, double units, std::function<void(const Device&)> run);
+  void add_threads(const std::string& name, double units,
+                   const std::function<void(const Device&)>& run);
 
   /// rate(of) / rate(against). Figures of cases that this build or machine lacks are left out.
   void ratio(std::string figure, std::string of, std::string against, Target target = {});

@@ -25,7 +25,7 @@ void describe(FieldList& list, RunConfig& config);
 struct PointsConfig {
   double psf_sigma = 1.0;  ///< [px]
   double threshold = 2.0;  ///< [sigma] of the matched filter
-  int radius = 1;          ///< [px]
+  int radius = 4;          ///< [px]; a smaller one lets a target give several points
 };
 void describe(FieldList& list, PointsConfig& config);
 
