@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -123,7 +124,7 @@ void add_experiment(CLI::App& app) {
   command->add_option("--runs", request->options.runs, "Monte Carlo runs; 0 = the experiment's own")
       ->check(CLI::Range(0, 1000000));
   command->add_option("--seed", request->options.seed, "Seed of the first run")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command->add_option("--out", request->out, "Folder for the curves: CSV and a picture");
   command->add_option("--threads", request->threads, "Threads; 0 = all, the result is the same")
