@@ -33,7 +33,7 @@ struct Scene {
   AlignedVector<float> log_ratio;
 };
 
-std::function<void(const Device&)> kernel(std::shared_ptr<Scene> scene) {
+std::function<void(const Device&)> kernel(const std::shared_ptr<Scene>& scene) {
   return [scene](const Device& device) {
     device.run<ParticleLikelihood>(scene->args(scene->particles.size()));
   };

@@ -34,7 +34,7 @@ struct Scene {
   std::vector<Hit> hits;
 };
 
-std::function<void(const Device&)> kernel(std::shared_ptr<Scene> scene) {
+std::function<void(const Device&)> kernel(const std::shared_ptr<Scene>& scene) {
   return [scene](const Device& device) { device.run<PixelLikelihood>(scene->args()); };
 }
 
@@ -51,7 +51,7 @@ Case naive() {
   return {"naive", 1, size.pixels(), [scene] { naive_pixel_likelihood(scene->args()); }};
 }
 
-void add_opencv(Suite& suite, std::shared_ptr<Scene> scene, double pixels) {
+void add_opencv(Suite& suite, const std::shared_ptr<Scene>& scene, double pixels) {
   if (!OpenCvPixelLikelihood::available()) return;
   const OpenCvPixelLikelihood opencv(scene->args());
   suite.add({"OpenCV pipeline", 1, pixels, [opencv, scene] { opencv.run(); }});

@@ -26,7 +26,7 @@ Propagate::Args args(Particles& p, std::size_t count) {
   return a;
 }
 
-std::function<void(const Device&)> kernel(std::shared_ptr<Particles> particles) {
+std::function<void(const Device&)> kernel(const std::shared_ptr<Particles>& particles) {
   return [particles](const Device& device) {
     device.run<Propagate>(args(*particles, particles->size()));
   };

@@ -38,8 +38,8 @@ struct Population {
   ResampleWorkspace workspace;
 };
 
-std::function<void(const Device&)> kernel(std::shared_ptr<Population> population, Resampling method,
-                                          bool move) {
+std::function<void(const Device&)> kernel(const std::shared_ptr<Population>& population,
+                                          Resampling method, bool move) {
   return [=](const Device& device) { device.run<Resample>(population->args(method, move)); };
 }
 
