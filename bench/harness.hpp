@@ -93,9 +93,9 @@ struct Budget {
 };
 
 /// Runs the cases round-robin, so that all see the same weather, and takes medians. A sample counts
-/// if the system never took a core from it and, for two threads, if two cores were free before and
-/// after it; it is repeated up to three times to get one. Where none came out so, the fastest of
-/// the disturbed ones has to do, and is marked as such.
+/// if its thread had a core all along and, for two threads, if two cores were free before and after
+/// it; it is repeated up to three times to get one. Where none came out so, the fastest of the
+/// disturbed ones has to do, and is marked as such.
 Result measure(const Suite& suite, const Budget& budget);
 
 }  // namespace glint::bench
