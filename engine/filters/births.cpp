@@ -80,10 +80,17 @@ PickedCell pick_in_reach(const AlignedVector<float>& score, int width, int heigh
 
 }  // namespace
 
-Births::Births(const BirthConfig& config, const MotionBank& bank, const PointSpread& spread,
-               const Device& device, std::uint64_t seed)
-    : config_(config), bank_(bank), spread_(spread), device_(device), seed_(seed) {
+Births::Births(const BirthConfig& config, const MotionBank& bank, const Device& device,
+               std::uint64_t seed)
+    : config_(config), bank_(bank), device_(device), seed_(seed) {
   cells_.reserve(static_cast<std::size_t>(config.count));
+}
+
+void Births::set_appearance(const TargetAppearance& appearance) {
+  spread_ = appearance.spread();
+  intensity_low_ = appearance.intensity_low(), intensity_high_ = appearance.intensity_high();
+  jitter_ = appearance.jitter();
+  now_ = {}, before_ = {};
 }
 
 std::uint32_t Births::draw_mode(std::uint32_t word) const {
@@ -95,11 +102,11 @@ std::uint32_t Births::draw_mode(std::uint32_t word) const {
 
 float Births::draw_intensity(std::uint32_t word) const {
   // Uniform in decibels: dim targets get as many particles as bright ones.
-  const double ratio = config_.intensity_high / config_.intensity_low;
-  return static_cast<float>(config_.intensity_low * std::pow(ratio, uniform(word)));
+  const double ratio = double{intensity_high_} / intensity_low_;
+  return static_cast<float>(intensity_low_ * std::pow(ratio, uniform(word)));
 }
 
-void Births::look_at(const Frame& z) {
+void Births::look_at(const Frame& z, const PixelMask& mask) {
   const FrameView view = z.view();
   std::swap(now_, before_);
   now_.whitened = z;
@@ -107,8 +114,7 @@ void Births::look_at(const Frame& z) {
   if (map_.width() != view.width || map_.height() != view.height) {
     map_ = Image<float>(view.width, view.height);
   }
-  const auto intensity =
-      static_cast<float>(std::sqrt(config_.intensity_low * config_.intensity_high));
+  const auto intensity = static_cast<float>(std::sqrt(double{intensity_low_} * intensity_high_));
   device_.run<PixelLikelihood>(
       {.frame = view, .spread = spread_, .intensity = intensity, .map = map_.view()});
   double energy = 0;
@@ -116,32 +122,37 @@ void Births::look_at(const Frame& z) {
   device_.run<BirthScores>({.map = map_.view(),
                             .intensity = intensity,
                             .energy = static_cast<float>(energy * energy),
-                            .intensity_low = static_cast<float>(config_.intensity_low),
-                            .intensity_high = static_cast<float>(config_.intensity_high),
+                            .intensity_low = intensity_low_,
+                            .intensity_high = intensity_high_,
                             .score = {now_.score.data(), view.width, view.height, view.width}});
+  for (const Box& box : mask.boxes()) {
+    for (int y = box.y0; y < box.y1; ++y) {
+      float* row = now_.score.data() + static_cast<std::ptrdiff_t>(y) * view.width;
+      std::fill(row + box.x0, row + box.x1, 0.0f);
+    }
+  }
   now_.total = ordered_sum(now_.score, view.width, view.height, device_, row_sums_);
 }
 
-std::size_t Births::draw(const Frame& z, std::int64_t frame, double step,
-                         const CellWorkspace& previous, double clutter, Particles& particles,
-                         std::size_t at) {
-  if (config_.proposal == BirthProposal::uniform) {
-    now_.whitened = z;
-    return draw_uniform(frame, particles, at);
-  }
-  look_at(z);
+std::size_t Births::draw(const BirthScan& scan, Particles& particles, std::size_t at) {
+  if (config_.proposal == BirthProposal::uniform) return draw_uniform(scan, particles, at);
+  look_at(scan.z, scan.mask);
   if (now_.total <= 0) return 0;
-  if (config_.proposal == BirthProposal::matched_filter) return draw_matched(frame, particles, at);
+  if (config_.proposal == BirthProposal::matched_filter) return draw_matched(scan, particles, at);
   const bool first =
-      before_.whitened.width() != z.width() || before_.whitened.height() != z.height();
-  return first ? 0 : draw_two_frame(frame, step, previous, clutter, particles, at);
+      before_.whitened.width() != scan.z.width() || before_.whitened.height() != scan.z.height();
+  return first || before_.total <= 0 ? 0 : draw_two_frame(scan, particles, at);
 }
 
-std::size_t Births::draw_uniform(std::int64_t frame, Particles& p, std::size_t at) {
-  const FrameView z = now_.whitened.view();
+std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_t at) {
+  const FrameView z = scan.z.view();
   cells_above(z, config_.threshold, cells_);
+  std::erase_if(cells_, [&](std::uint32_t cell) {
+    const auto width = static_cast<std::uint32_t>(z.width);
+    return scan.mask.covers(static_cast<float>(cell % width), static_cast<float>(cell / width));
+  });
   if (cells_.empty()) return 0;
-  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth);
+  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
   const auto count = static_cast<std::size_t>(config_.count);
   const auto speed = static_cast<float>(config_.speed_max);
   for (std::size_t i = 0; i < count; ++i) {
@@ -162,9 +173,9 @@ std::size_t Births::draw_uniform(std::int64_t frame, Particles& p, std::size_t a
   return count;
 }
 
-std::size_t Births::draw_matched(std::int64_t frame, Particles& p, std::size_t at) {
+std::size_t Births::draw_matched(const BirthScan& scan, Particles& p, std::size_t at) {
   const int width = now_.whitened.width(), height = now_.whitened.height();
-  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth);
+  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
   const auto count = static_cast<std::size_t>(config_.count);
   const auto speed = static_cast<float>(config_.speed_max);
   cells_.resize(count);
@@ -187,10 +198,10 @@ std::size_t Births::draw_matched(std::int64_t frame, Particles& p, std::size_t a
   return count;
 }
 
-std::size_t Births::draw_two_frame(std::int64_t frame, double step, const CellWorkspace& previous,
-                                   double clutter, Particles& p, std::size_t at) {
+std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::size_t at) {
+  const double step = scan.step;
   const int width = now_.whitened.width(), height = now_.whitened.height();
-  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth);
+  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
   const auto count = static_cast<std::size_t>(config_.count);
   const int reach = static_cast<int>(std::ceil(config_.speed_max * step));
   for (auto* v : {&x_before_, &y_before_, &log_ratio_}) v->resize(count);
@@ -219,7 +230,7 @@ std::size_t Births::draw_two_frame(std::int64_t frame, double step, const CellWo
       p.mode[to] = draw_mode(b.w[3]);
       // The share of this cell that living targets already explain is no birth: 1 / (clutter + B).
       const double explained =
-          clutter + window_sum(previous, width, height, spread_.half_width, cx, cy);
+          scan.clutter + window_sum(scan.previous, width, height, spread_.half_width, cx, cy);
       const bool possible =
           std::abs(p.vx[to]) <= config_.speed_max && std::abs(p.vy[to]) <= config_.speed_max;
       const double weight = config_.mass / config_.count * mean / before_.score[cells_[i]] *
@@ -234,8 +245,8 @@ std::size_t Births::draw_two_frame(std::int64_t frame, double step, const CellWo
        .y = y_before_,
        .intensity = std::span(p.intensity).subspan(at, count),
        .log_ratio = log_ratio_,
-       .jitter = static_cast<float>(config_.jitter),
-       .key = random_key(seed_, static_cast<std::uint64_t>(frame), Purpose::birth_jitter)});
+       .jitter = jitter_,
+       .key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth_jitter)});
   // Births were born a frame ago and share their pixels there like anyone: P-PHD (14) for them too.
   const std::span<float> predicted = std::span(p.weight).subspan(at, count);
   updated_.resize(count);

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "glint/engine/filters/pixel_mask.hpp"
+#include "glint/engine/filters/target_appearance.hpp"
 #include "glint/engine/models/motion_bank.hpp"
 #include "glint/kernels/cell_weights/cell_weights.hpp"
 #include "glint/kernels/core/device.hpp"
@@ -22,12 +24,21 @@ enum class BirthProposal {
 
 struct BirthConfig {
   BirthProposal proposal = BirthProposal::two_frame;
-  int count = 4000;                              ///< particles a frame, J
-  double mass = 0.05;                            ///< expected new-born targets a frame, gamma
-  double threshold = 1.5;                        ///< of the uniform proposal [noise sigmas]
-  double speed_max = 4;                          ///< largest speed along each axis [px/s]
-  double intensity_low = 1, intensity_high = 1;  ///< [noise sigmas], whole target
-  double jitter = 0;                             ///< of the sensor [px]
+  int count = 4000;        ///< particles a frame, J
+  double mass = 0.05;      ///< expected new-born targets a frame, gamma
+  double threshold = 1.5;  ///< of the uniform proposal [noise sigmas]
+  double speed_max = 4;    ///< largest speed along each axis [px/s]
+};
+
+/// What births of one frame are drawn from.
+struct BirthScan {
+  const Frame& z;
+  std::int64_t frame;
+  double step;  ///< time since the frame before [s]
+  /// Cell map of the update of the frame before, of the same size.
+  const CellWorkspace& previous;
+  double clutter;
+  const PixelMask& mask;  ///< nothing is born there
 };
 
 /// One frame as births see it, kept until the next.
@@ -40,28 +51,28 @@ struct BirthFrame {
 /// Draws new-born particles with their weights; their position is the one at the present frame.
 class Births {
  public:
-  Births(const BirthConfig& config, const MotionBank& bank, const PointSpread& spread,
-         const Device& device, std::uint64_t seed);
+  Births(const BirthConfig& config, const MotionBank& bank, const Device& device,
+         std::uint64_t seed);
+  /// What the new-born look like; forgets the frame before.
+  void set_appearance(const TargetAppearance& appearance);
 
-  /// Writes `config.count` particles to `particles` from index `at` on (already resized), for the
-  /// frame `z`; `previous` is the cell map of the update of the frame before, of the same size.
-  /// Returns how many were written: fewer only if there is nothing to draw from (no frame before,
-  /// no cell above the threshold). `step` is the time since the frame before [s].
-  std::size_t draw(const Frame& z, std::int64_t frame, double step, const CellWorkspace& previous,
-                   double clutter, Particles& particles, std::size_t at);
+  /// Writes `config.count` particles to `particles` from index `at` on (already resized). Returns
+  /// how many were written: fewer only if there is nothing to draw from (no frame before, no cell
+  /// above the threshold).
+  std::size_t draw(const BirthScan& scan, Particles& particles, std::size_t at);
 
  private:
-  void look_at(const Frame& z);
-  std::size_t draw_uniform(std::int64_t frame, Particles& p, std::size_t at);
-  std::size_t draw_matched(std::int64_t frame, Particles& p, std::size_t at);
-  std::size_t draw_two_frame(std::int64_t frame, double step, const CellWorkspace& previous,
-                             double clutter, Particles& p, std::size_t at);
+  void look_at(const Frame& z, const PixelMask& mask);
+  std::size_t draw_uniform(const BirthScan& scan, Particles& p, std::size_t at);
+  std::size_t draw_matched(const BirthScan& scan, Particles& p, std::size_t at);
+  std::size_t draw_two_frame(const BirthScan& scan, Particles& p, std::size_t at);
   std::uint32_t draw_mode(std::uint32_t word) const;
   float draw_intensity(std::uint32_t word) const;
 
   BirthConfig config_;
   MotionBank bank_;
   PointSpread spread_;
+  float intensity_low_ = 1, intensity_high_ = 1, jitter_ = 0;
   Device device_;
   std::uint64_t seed_;
   BirthFrame now_, before_;

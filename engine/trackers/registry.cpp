@@ -22,6 +22,8 @@ constexpr TrackerEntry entry(std::string_view name, std::string_view summary) {
 constexpr std::array kTrackers{
     entry<SmcPhd, SmcPhdConfig>("smc-phd",
                                 "particle PHD filter on raw frames, with persistent identities"),
+    entry<SmcPhd, SmcPhdImprovedConfig>(
+        "smc-phd-improved", "smc-phd with adaptive process noise and resampling on likelihood"),
 };
 
 }  // namespace

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/filters/search_cloud.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "glint/engine/filters/moved_particles.hpp"
+#include "glint/kernels/cell_weights/bound.hpp"
+#include "glint/kernels/core/math.hpp"
+#include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
+#include "glint/kernels/propagate/propagate.hpp"
+
+namespace glint {
+namespace {
+
+BirthProposal proposal_of(const std::string& name) {
+  if (name == "uniform") return BirthProposal::uniform;
+  return name == "matched-filter" ? BirthProposal::matched_filter : BirthProposal::two_frame;
+}
+
+std::uint64_t index_of(std::int64_t frame) { return static_cast<std::uint64_t>(frame); }
+
+BirthConfig births_of(const SearchConfig& config) {
+  BirthConfig births;
+  births.proposal = proposal_of(config.birth);
+  births.count = config.birth_particles;
+  births.mass = config.birth_mass;
+  births.threshold = config.birth_threshold;
+  births.speed_max = config.speed_max;
+  return births;
+}
+
+}  // namespace
+
+MotionBank MotionConfig::bank() const {
+  return motion_bank(motion, process_noise, turn_rate * std::numbers::pi / 180);
+}
+
+SearchCloud::SearchCloud(const SearchConfig& config, const Device& device, std::uint64_t seed)
+    : config_(config),
+      bank_(config.bank()),
+      device_(device),
+      seed_(seed),
+      appearance_(config),
+      births_(births_of(config), bank_, device, seed) {}
+
+void SearchCloud::set_appearance(const TargetAppearance& appearance) {
+  appearance_ = appearance;
+  births_.set_appearance(appearance);
+  clear();  // intensities were for another shape
+}
+
+void SearchCloud::clear() {
+  particles_.resize(0);
+  expected_ = 0;
+}
+
+void SearchCloud::predict(const Frame& z, std::int64_t frame, double step, const PixelMask& mask,
+                          std::span<const float> noise_scale) {
+  auto& p = particles_;
+  device_.run<Propagate>({.x = p.x,
+                          .y = p.y,
+                          .vx = p.vx,
+                          .vy = p.vy,
+                          .intensity = p.intensity,
+                          .ax = p.ax,
+                          .ay = p.ay,
+                          .mode = p.mode,
+                          .modes = bank_.modes,
+                          .switching = bank_.switching,
+                          .step = static_cast<float>(step),
+                          .intensity_noise = appearance_.intensity_noise(),
+                          .intensity_low = appearance_.intensity_low(),
+                          .intensity_high = appearance_.intensity_high(),
+                          .noise_scale = noise_scale,
+                          .seed = seed_,
+                          .frame = static_cast<std::uint32_t>(frame)});
+  // P-PHD (11): survivors keep w_{k-1}, times the probability of survival.
+  const auto survival = static_cast<float>(config_.survival);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.weight[i] = !mask.empty() && mask.covers(p.x[i], p.y[i]) ? 0 : p.weight[i] * survival;
+  }
+  give_birth(z, frame, step, mask);
+}
+
+void SearchCloud::give_birth(const Frame& z, std::int64_t frame, double step,
+                             const PixelMask& mask) {
+  const std::size_t survivors = particles_.size();
+  const std::size_t all = survivors + static_cast<std::size_t>(config_.birth_particles);
+  const auto from = static_cast<std::ptrdiff_t>(survivors);
+  particles_.resize(all);
+  for (auto* zero : {&particles_.ax, &particles_.ay}) {
+    std::fill(zero->begin() + from, zero->end(), 0.0f);
+  }
+  std::fill(particles_.label.begin() + from, particles_.label.end(), 0u);
+  const std::size_t born =
+      births_.draw({z, frame, step, cells_, config_.clutter, mask}, particles_, survivors);
+  particles_.resize(survivors + born);
+}
+
+void SearchCloud::update(const Frame& z, std::int64_t frame) {
+  auto& p = particles_;
+  log_ratio_.resize(p.size());
+  updated_.resize(p.size());
+  device_.run<ParticleLikelihood>({.frame = z.view(),
+                                   .spread = appearance_.spread(),
+                                   .x = p.x,
+                                   .y = p.y,
+                                   .intensity = p.intensity,
+                                   .log_ratio = log_ratio_,
+                                   .jitter = appearance_.jitter(),
+                                   .key = random_key(seed_, index_of(frame), Purpose::jitter)});
+  device_.run<CellWeights>({.width = z.width(),
+                            .height = z.height(),
+                            .half_width = appearance_.spread().half_width,
+                            .psi = config_.psi == "cell" ? Psi::cell : Psi::window,
+                            .clutter = static_cast<float>(config_.clutter),
+                            .x = p.x,
+                            .y = p.y,
+                            .predicted = p.weight,
+                            .log_ratio = log_ratio_,
+                            .updated = updated_,
+                            .workspace = &cells_});
+  std::swap(p.weight, updated_);
+  expected_ = total_mass(cells_.runs);
+  if (config_.resample_on == "likelihood") weigh_by_likelihood();
+}
+
+void SearchCloud::weigh_by_likelihood() {
+  const auto& predicted = updated_;  // the update left them there
+  likelihood_.resize(predicted.size());
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    const bool possible = log_ratio_[i] >= -kMaxLogRatio;  // false for NaN
+    likelihood_[i] = possible ? predicted[i] * math::exp(bounded_log_ratio(log_ratio_[i])) : 0.0f;
+  }
+}
+
+void SearchCloud::remove(std::span<const std::uint32_t> members) {
+  for (const std::uint32_t i : members) {
+    expected_ -= particles_.weight[i];
+    particles_.weight[i] = 0;
+    if (!likelihood_.empty()) likelihood_[i] = 0;
+  }
+  expected_ = std::max(0.0, expected_);
+}
+
+void SearchCloud::resample(std::int64_t frame) {
+  auto& p = particles_;
+  const double targets = std::max(1.0, std::ceil(expected_));
+  const double wanted =
+      std::min({targets * config_.particles_per_target, static_cast<double>(config_.particles_max),
+                static_cast<double>(p.size())});
+  const std::size_t kept = expected_ > 0 ? static_cast<std::size_t>(wanted) : 0;
+  moved_.resize(kept);
+  ancestors_.resize(kept);
+  if (kept > 0) {
+    const auto moves = moved_particles(p, 0, moved_, 0);
+    device_.run<Resample>(
+        {.weights = likelihood_.empty() ? p.weight : likelihood_,
+         .ancestors = ancestors_,
+         .method = config_.resampling == "residual" ? Resampling::residual : Resampling::systematic,
+         .key = random_key(seed_, index_of(frame), Purpose::resample),
+         .moved = moves,
+         .workspace = &draws_});
+    std::fill(moved_.weight.begin(), moved_.weight.end(),
+              static_cast<float>(expected_ / static_cast<double>(kept)));
+  }
+  std::swap(particles_, moved_);
+}
+
+}  // namespace glint

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "glint/engine/filters/births.hpp"
+#include "glint/engine/filters/pixel_mask.hpp"
+#include "glint/engine/filters/target_appearance.hpp"
+#include "glint/engine/models/motion_bank.hpp"
+#include "glint/engine/scan.hpp"
+#include "glint/kernels/cell_weights/cell_weights.hpp"
+#include "glint/kernels/core/device.hpp"
+#include "glint/kernels/core/particles.hpp"
+#include "glint/kernels/resample/resample.hpp"
+
+namespace glint {
+
+/// How targets move. The unit of time is the frame interval, whatever the frame rate.
+struct MotionConfig {
+  std::string motion = "cv";
+  double process_noise = 0.02;  ///< [px^2/frame^3]
+  double turn_rate = 15;        ///< [deg/frame]
+  double speed_max = 4;         ///< [px/frame]
+  double survival = 0.99;
+  MotionBank bank() const;
+};
+void describe(FieldList& list, MotionConfig& config);
+
+/// Settings of a particle cloud that looks for targets all over the frame.
+struct SearchConfig : AppearanceConfig, MotionConfig {
+  // Where targets come from.
+  std::string birth = "two-frame";
+  int birth_particles = 4000;
+  double birth_mass = 0.05;
+  double birth_threshold = 1.5;  ///< [noise sigmas]
+  // How many particles stand for them.
+  int particles_per_target = 2000;
+  int particles_max = 2000000;
+  std::string resampling = "systematic", resample_on = "weight";
+  // How their pixels are shared.
+  std::string psi = "window";
+  double clutter = 1;
+};
+void describe(FieldList& list, SearchConfig& config);
+
+/// A cloud of particles whose weights sum to the expected number of targets: the PHD filter of
+/// P-PHD section 3.1, over all motion models of section 4. A scan is predict(), update(), then
+/// resample().
+class SearchCloud {
+ public:
+  SearchCloud(const SearchConfig& config, const Device& device, std::uint64_t seed);
+  /// Sets what targets look like; a change of shape empties the cloud.
+  void set_appearance(const TargetAppearance& appearance);
+
+  /// Survivors move, births join. P-PHD (9)-(11), (31)-(34). `step` frames have passed since the
+  /// last call; nothing lives or is born in `mask`; `noise_scale` multiplies the process noise's
+  /// standard deviation of each survivor, empty = 1.
+  void predict(const Frame& z, std::int64_t frame, double step, const PixelMask& mask,
+               std::span<const float> noise_scale = {});
+  /// P-PHD (13)-(16): likelihood over the window, w l / (clutter + B).
+  void update(const Frame& z, std::int64_t frame);
+  /// Takes these particles away, weight and all.
+  void remove(std::span<const std::uint32_t> members);
+  /// Takes everything away.
+  void clear();
+  /// Particles of equal weight, their sum kept. P-PHD (20); (24) as corrected if so configured.
+  void resample(std::int64_t frame);
+
+  /// Expected number of targets after the update. P-PHD (19)
+  double expected() const { return expected_; }
+  Particles& particles() { return particles_; }
+  const Particles& particles() const { return particles_; }
+  /// The particles by pixel, of the last update.
+  const CellRuns& runs() const { return cells_.runs; }
+
+ private:
+  void give_birth(const Frame& z, std::int64_t frame, double step, const PixelMask& mask);
+  void weigh_by_likelihood();
+
+  SearchConfig config_;
+  MotionBank bank_;
+  Device device_;
+  std::uint64_t seed_;
+  TargetAppearance appearance_;
+  Births births_;
+  Particles particles_, moved_;
+  AlignedVector<float> log_ratio_, updated_;
+  AlignedVector<float> likelihood_;  ///< w_{k|k-1} l, if the cloud is redrawn by it; else empty
+  CellWorkspace cells_;
+  ResampleWorkspace draws_;
+  std::vector<std::uint32_t> ancestors_;
+  double expected_ = 0;
+};
+
+}  // namespace glint

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+#include "glint/engine/config.hpp"
+#include "glint/engine/scan.hpp"
+#include "glint/kernels/core/point_spread.hpp"
+
+namespace glint {
+
+/// What a target looks like.
+struct AppearanceConfig {
+  double psf_sigma = 1.0;             ///< [px]; 0 = auto
+  double snr_low = 6, snr_high = 26;  ///< peak SNR [dB]
+  double intensity_walk = 0.2;        ///< [noise sigmas of peak, per frame]
+  double jitter = 0.2;                ///< [px]
+};
+void describe(FieldList& list, AppearanceConfig& config);
+
+/// The point spread and the range of intensities, given or fitted to the first frames.
+class TargetAppearance {
+ public:
+  /// Throws ConfigError if snr_low exceeds snr_high.
+  explicit TargetAppearance(const AppearanceConfig& config);
+
+  /// Fits what is to be fitted; true if anything changed, as it does on the first call. Until some
+  /// target is bright enough to show its shape, the default shape serves.
+  bool look_at(const Scan& scan);
+  const PointSpread& spread() const { return spread_; }
+  float intensity_low() const { return intensity_low_; }    ///< [noise sigmas], whole target
+  float intensity_high() const { return intensity_high_; }  ///< [noise sigmas], whole target
+  /// Variance of the intensity's random walk [sigma^2/frame].
+  float intensity_noise() const;
+  float jitter() const { return static_cast<float>(config_.jitter); }
+  /// "psf_sigma = 1.04 px (fitted ...)".
+  std::string note() const;
+
+ private:
+  void set(double psf_sigma);
+
+  AppearanceConfig config_;
+  PointSpread spread_;
+  float intensity_low_ = 1, intensity_high_ = 1;
+  int seen_ = 0;  ///< frames looked at
+  bool set_ = false, fitted_ = false;
+};
+
+}  // namespace glint
