@@ -15,30 +15,14 @@ constexpr SceneEntry entry(std::string_view summary) {
 
 constexpr std::array kScenes{
     entry<PhdScene>("one dim target in white noise: P-PHD section 5.1"),
+    entry<PhdManoeuvreScene>("three dim targets, two of them turning: P-PHD section 5.2"),
+    entry<PhdArcsScene>("three dim targets on arcs, a frame every 2 s: P-PHD section 5.3"),
     entry<IrClipScene>("infrared-like clip, six dim targets over clouds and ground"),
     entry<CrossingScene>("two targets that cross"),
     entry<NoiseScene>("white noise alone"),
 };
 
 }  // namespace
-
-void describe(FieldList& list, PhdScene& config) {
-  list("snr", config.snr, -20, 40, "dB", "peak of the target's image above the noise");
-  list("jitter", config.jitter, 0, 5, "px", "sd of the image about the target, anew each frame");
-  list("frames", config.frames, 1, 100000, "", "length of the sequence");
-}
-
-Scene make_scene(const PhdScene& config) {
-  Scene scene;
-  scene.name = PhdScene::kName;
-  scene.width = scene.height = 40;
-  scene.frames = config.frames;
-  scene.point_spread = PointSpread::of(0.7);
-  scene.jitter_sigma = config.jitter;
-  const double intensity = scene.point_spread.intensity_of_snr(config.snr);  // P-PHD (37)
-  scene.targets = {{4, 24, intensity, fly({5 - 0.5, 5 - 0.5, 0.9, 0.2})}};
-  return scene;
-}
 
 void describe(FieldList& list, NoiseScene& config) {
   list("width", config.width, 1, 32768, "px", "width of a frame");

@@ -15,6 +15,28 @@ struct PhdScene {
 void describe(FieldList& list, PhdScene& config);
 Scene make_scene(const PhdScene& config);
 
+/// P-PHD section 5.2: three targets that come and go, two of which fly straight, turn for 10 s and
+/// fly straight again. The paper does not say how fast they turn.
+struct PhdManoeuvreScene {
+  static constexpr std::string_view kName = "phd-5.2";
+  double snr = 10;  ///< [dB]
+  double jitter = 0.5;
+  double turn_rate = 15;  ///< [deg/s]
+};
+void describe(FieldList& list, PhdManoeuvreScene& config);
+Scene make_scene(const PhdManoeuvreScene& config);
+
+/// P-PHD section 5.3: a frame every 2 s, two targets from the paper's frame 8 on and a dimmer one
+/// from frame 15 on. The paper's paths are from a program of its own; these are arcs of its speeds.
+struct PhdArcsScene {
+  static constexpr std::string_view kName = "phd-5.3";
+  double snr = 13, snr_third = 11;  ///< [dB]
+  double jitter = 0.5;
+  double turn_rate = 3;  ///< [deg/s]
+};
+void describe(FieldList& list, PhdArcsScene& config);
+Scene make_scene(const PhdArcsScene& config);
+
 /// An infrared-like clip after P-PMHT section 4: point targets on B-spline paths above a skyline,
 /// in grey levels.
 struct IrClipScene {

@@ -141,6 +141,85 @@ TEST(Scenes, PhdSceneIsTheOneOfThePaper) {
   EXPECT_NEAR(truth.front().intensity, 12.257, 5e-4);
 }
 
+/// The paper's frames and cells: counted from 1, a cell [i-1, i] has its centre at i - .5.
+struct PaperPlace {
+  std::int64_t first, last;
+  double x, y, vx, vy;  // at the first frame
+};
+
+void expect_life(const std::vector<TruthPoint>& truth, std::int64_t id, const PaperPlace& paper) {
+  std::vector<TruthPoint> life;
+  for (const TruthPoint& t : truth) {
+    if (t.track_id == id) life.push_back(t);
+  }
+  ASSERT_FALSE(life.empty());
+  EXPECT_EQ(life.front().frame + 1, paper.first);
+  EXPECT_EQ(life.back().frame + 1, paper.last);
+  EXPECT_DOUBLE_EQ(life.front().x + 0.5, paper.x);
+  EXPECT_DOUBLE_EQ(life.front().y + 0.5, paper.y);
+  EXPECT_DOUBLE_EQ(life.front().vx, paper.vx);
+  EXPECT_DOUBLE_EQ(life.front().vy, paper.vy);
+}
+
+/// The target's heading [deg] from x towards y, after `age` [s].
+double heading(const Scene& scene, std::size_t target, double age) {
+  const Kinematics k = scene.targets.at(target).path(age);
+  return std::atan2(k.vy, k.vx) * 180 / std::numbers::pi;
+}
+
+void expect_inside_at_constant_speed(const Scene& scene) {
+  std::vector<double> speed(scene.targets.size(), 0);
+  for (const TruthPoint& t : truth_of(scene)) {
+    double& first = speed[static_cast<std::size_t>(t.track_id)];
+    if (first == 0) first = std::hypot(t.vx, t.vy);
+    EXPECT_NEAR(std::hypot(t.vx, t.vy), first, 1e-12);
+    EXPECT_TRUE(t.x > 2 && t.x < scene.width - 3) << t.track_id << " " << t.frame << " " << t.x;
+    EXPECT_TRUE(t.y > 2 && t.y < scene.height - 3) << t.track_id << " " << t.frame << " " << t.y;
+  }
+}
+
+TEST(Scenes, ThePhdManoeuvreIsTheOneOfThePaper) {
+  const Scene scene = make_scene(PhdManoeuvreScene{});
+  EXPECT_EQ(scene.frames, 40);
+  const std::vector<TruthPoint> truth = truth_of(scene);
+  expect_life(truth, 0, {5, 34, 15, 10, 1.5, 0});
+  expect_life(truth, 1, {5, 34, 25, 18, -1.3, 0});
+  expect_life(truth, 2, {10, 30, 20, 35, 0, -1.5});
+  expect_inside_at_constant_speed(scene);
+  EXPECT_NEAR(truth.front().intensity, 9.74, 5e-3);
+  EXPECT_NEAR(heading(scene, 0, 9.99), 0, 1e-9);
+  EXPECT_NEAR(heading(scene, 0, 12), 30, 1e-9);
+  EXPECT_NEAR(heading(scene, 0, 25), 150, 1e-9);
+  EXPECT_NEAR(heading(scene, 1, 25), 30, 1e-9);  // from 180 back by 150
+  // Half a turn that is 180 - 2 * 15 degrees long spans the circle of radius v / rate.
+  const double radius = 1.5 / (15 * std::numbers::pi / 180);
+  const Kinematics in = scene.targets[0].path(10), out = scene.targets[0].path(20);
+  EXPECT_NEAR(std::hypot(out.x - in.x, out.y - in.y),
+              2 * radius * std::sin(75 * std::numbers::pi / 180), 1e-9);
+}
+
+TEST(Scenes, ThePhdArcsTurnAsStatedEveryTwoSeconds) {
+  const Scene scene = make_scene(PhdArcsScene{});
+  EXPECT_EQ(scene.frames, 42);
+  EXPECT_EQ(scene.interval, 2);
+  EXPECT_EQ(scene.width, 80);
+  EXPECT_EQ(scene.height, 100);
+  const std::vector<TruthPoint> truth = truth_of(scene);
+  expect_life(truth, 0, {8, 29, 15, 20, 0.9, 0.45});
+  expect_life(truth, 1, {8, 29, 66, 28, -0.75, 0.7});
+  expect_life(truth, 2, {15, 34, 30, 85, 0.35, -0.95});
+  expect_inside_at_constant_speed(scene);
+  EXPECT_NEAR(scene.targets[0].intensity, 10.104, 5e-4);
+  EXPECT_NEAR(scene.targets[2].intensity, 8.026, 5e-4);
+  const auto turned = [&](std::size_t target, double age) {
+    return heading(scene, target, age) - heading(scene, target, 0);
+  };
+  for (const std::size_t target : {0u, 2u}) EXPECT_NEAR(turned(target, 28), 48, 1e-9);
+  EXPECT_NEAR(turned(1, 28), -48, 1e-9);
+  EXPECT_NEAR(turned(0, 40), 48, 1e-9);
+  EXPECT_NEAR(turned(2, 38), 48 - 10 * 3, 1e-9);  // clockwise to the end
+}
+
 TEST(Scenes, IrClipShowsItsTargetsInsideTheFrameInGreyLevels) {
   for (const double speed : {2.0, 17.0}) {
     IrClipScene config;
@@ -169,7 +248,8 @@ TEST(Scenes, UnknownNameListsTheKnownOnes) {
     find_scene("nowhere");
     FAIL();
   } catch (const ConfigError& e) {
-    EXPECT_NE(std::string(e.what()).find("phd-5.1, ir-clip, crossing, noise"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("phd-5.1, phd-5.2, phd-5.3, ir-clip, crossing, noise"),
+              std::string::npos);
   }
 }
 
