@@ -52,15 +52,15 @@ FrameView MatchedFilter::response(FrameView whitened) {
   return map;
 }
 
-const std::vector<Point>& MatchedFilter::points(FrameView whitened, double threshold, int radius) {
+void MatchedFilter::points(FrameView whitened, double threshold, int radius,
+                           std::vector<Point>& points) {
   FindPoints::Args args;
   args.map = response(whitened);
   args.threshold = static_cast<float>(threshold);
   args.radius = radius;
-  args.points = &points_;
+  args.points = &points;
   args.workspace = &workspace_;
   device_.run<FindPoints>(args);
-  return points_;
 }
 
 }  // namespace glint

@@ -19,14 +19,14 @@ class MatchedFilter {
   /// sums clipped at the border: unit noise in, unit noise out. Valid until the next call.
   FrameView response(FrameView whitened);
   /// Maxima of the response in their neighbourhood of `radius` [px] and above `threshold` [sigma].
-  const std::vector<Point>& points(FrameView whitened, double threshold, int radius);
+  /// Replaces `points`.
+  void points(FrameView whitened, double threshold, int radius, std::vector<Point>& points);
 
  private:
   Device device_;
   PointSpread spread_;
   Image<float> response_;
   std::vector<float> energy_x_, energy_y_;  ///< sum of squared weights inside the frame, by pixel
-  std::vector<Point> points_;
   PointWorkspace workspace_;
 };
 

@@ -15,7 +15,7 @@ struct Scan {
   Frame raw;               ///< grey, as delivered (after colour conversion); may be empty
   Frame whitened;  ///< z = polarity (I - background) / sigma, unit noise; masked pixels are 0
   double noise_sigma = 1;         ///< median of the noise map [grey levels]
-  std::span<const Point> points;  ///< only if some tracker feeds on points
+  std::span<const Point> points;  ///< of this frame; only if some tracker feeds on points
 };
 
 }  // namespace glint

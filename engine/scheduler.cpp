@@ -25,7 +25,8 @@ struct Lane {
 }  // namespace
 
 struct Scheduler::State {
-  State(const Device& on, FramePreparer with) : device(on), preparer(std::move(with)) {}
+  State(const Device& on, FramePreparer with, const PointsConfig& points)
+      : device(on), preparer(std::move(with)), finder(points, on) {}
 
   Token* read(Source& source, const std::stop_token& stop);
   void prepare(Token& token);
@@ -37,6 +38,8 @@ struct Scheduler::State {
 
   Device device;
   FramePreparer preparer;
+  PointFinder finder;
+  bool finds_points = false;
   std::deque<Lane> lanes;
   std::vector<const TrackLog*> logs;
   std::vector<Sink*> sinks;
@@ -67,6 +70,9 @@ void Scheduler::State::prepare(Token& token) {
   preparing.pass(token, [&] {
     token.scan = preparer.prepare(token.source->pixels, token.frame, token.source->time);
     token.source.reset();
+    if (!finds_points) return;
+    finder.find(token.scan, token.points);
+    token.scan.points = token.points;
   });
   if (token.failed) stopping = true;
 }
@@ -127,17 +133,20 @@ void Scheduler::State::finish() {
   }
 }
 
-Scheduler::Scheduler(const Device& device, FramePreparer preparer)
-    : state_(std::make_unique<State>(device, std::move(preparer))) {}
+Scheduler::Scheduler(const Device& device, FramePreparer preparer, const PointsConfig& points)
+    : state_(std::make_unique<State>(device, std::move(preparer), points)) {}
 Scheduler::~Scheduler() = default;
 Scheduler::Scheduler(Scheduler&&) noexcept = default;
 
 void Scheduler::add(std::unique_ptr<Tracker> tracker, std::string name) {
+  if (tracker->feed() != Feed::frames) find_points();
   Lane& lane = state_->lanes.emplace_back(Lane{std::move(tracker), {}, Stage(std::move(name))});
   state_->logs.push_back(&lane.log);
 }
 
 void Scheduler::add(Sink& sink) { state_->sinks.push_back(&sink); }
+
+void Scheduler::find_points() { state_->finds_points = true; }
 
 std::int64_t Scheduler::run(Source& source, const std::stop_token& stop) {
   State& s = *state_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "glint/engine/frame_preparer.hpp"
+#include "glint/engine/points.hpp"
 #include "glint/engine/trackers/tracker.hpp"
 
 namespace glint {
@@ -60,13 +61,16 @@ class Scheduler {
  public:
   static constexpr std::size_t kFramesInFlight = 4;
 
-  Scheduler(const Device& device, FramePreparer preparer);
+  /// `points`: how points are found for trackers that feed on them.
+  Scheduler(const Device& device, FramePreparer preparer, const PointsConfig& points = {});
   ~Scheduler();
   Scheduler(Scheduler&&) noexcept;
 
   void add(std::unique_ptr<Tracker> tracker, std::string name = "tracker");
   /// Sinks get each scan in the order in which they were added.
   void add(Sink& sink);
+  /// Scans get their points even if no tracker feeds on them.
+  void find_points();
   /// Runs to the end of the source, or until `stop` is requested: then no more frames are read and
   /// those in flight are finished. Calls every tracker's finish() but that of one which threw.
   /// Returns the number of frames delivered. Runs once; throws std::logic_error if called again.

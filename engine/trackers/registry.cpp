@@ -10,8 +10,9 @@ namespace glint {
 namespace {
 
 template <class T, class Config>
-constexpr TrackerEntry entry(std::string_view name, std::string_view summary) {
-  return {name, summary,
+constexpr TrackerEntry entry(std::string_view name, std::string_view summary,
+                             Feed feed = Feed::frames) {
+  return {name, summary, feed,
           [](std::string section) { return ConfigSection::of<Config>(std::move(section)); },
           [](const ConfigSection& config, const Device& device,
              std::uint64_t seed) -> std::unique_ptr<Tracker> {

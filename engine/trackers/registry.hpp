@@ -15,6 +15,7 @@ namespace glint {
 /// How a tracker is found by name, configured and made.
 struct TrackerEntry {
   std::string_view name, summary;
+  Feed feed;  ///< that of the tracker made
   ConfigSection (*section)(std::string section_name);
   /// `config` is a section that `config()` made. Throws ConfigError for settings that do not fit
   /// together.

@@ -19,11 +19,13 @@ void add_config(CLI::App& app) {
       "Example:\n"
       "  glint config smc-phd > my.toml; glint track clip.mp4 --config my.toml");
   command->callback([tracker] {
-    const std::string name(find_tracker(*tracker).name);
+    const TrackerEntry& entry = find_tracker(*tracker);
+    const std::string name(entry.name);
     auto all = all_sections();
     apply_set("run.tracker=" + name, all);
-    const std::vector sections{section_named(all, "run"), section_named(all, "frames"),
-                               section_named(all, "trackers." + name)};
+    std::vector sections{section_named(all, "run"), section_named(all, "frames")};
+    if (entry.feed != Feed::frames) sections.push_back(section_named(all, "points"));
+    sections.push_back(section_named(all, "trackers." + name));
     fmt::print("{}", write_toml(sections));
   });
 }

@@ -42,6 +42,10 @@ std::vector<ConfigSection> used_sections(std::span<const ConfigSection> all,
                                          const std::vector<std::string>& inputs,
                                          const std::vector<std::string>& more) {
   std::vector<std::string> names{"run", "frames"};
+  const auto feeds_on_points = [](const std::string& tracker) {
+    return find_tracker(tracker).feed != Feed::frames;
+  };
+  if (std::ranges::any_of(trackers, feeds_on_points)) names.emplace_back("points");
   for (const auto& tracker : trackers) {
     names.push_back("trackers." + std::string(find_tracker(tracker).name));
   }
@@ -86,6 +90,13 @@ Image<std::uint8_t> read_mask(const std::string& path, const Device& device) {
     for (int x = 0; x < grey.width(); ++x) mask.view()(x, y) = grey.view()(x, y) != 0 ? 1 : 0;
   }
   return mask;
+}
+
+FramePreparer make_preparer(const FrameJob& job) {
+  FramePreparer preparer(job.config<FramesConfig>("frames"), job.device);
+  const std::string& mask = job.run().mask;
+  if (!mask.empty()) preparer.set_mask(read_mask(mask, job.device));
+  return preparer;
 }
 
 }  // namespace
@@ -149,11 +160,10 @@ std::unique_ptr<Source> open_frames(const FrameJob& job) {
   return std::make_unique<NoisySource>(std::move(source), run.add_noise, seed, job.device);
 }
 
-FramePreparer make_preparer(const FrameJob& job) {
-  FramePreparer preparer(job.config<FramesConfig>("frames"), job.device);
-  const std::string& mask = job.run().mask;
-  if (!mask.empty()) preparer.set_mask(read_mask(mask, job.device));
-  return preparer;
+Scheduler make_scheduler(const FrameJob& job) {
+  const auto points = std::ranges::find(job.sections, "points", &ConfigSection::name);
+  return {job.device, make_preparer(job),
+          points == job.sections.end() ? PointsConfig{} : points->as<PointsConfig>()};
 }
 
 }  // namespace glint::cli

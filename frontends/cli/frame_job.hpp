@@ -40,13 +40,15 @@ struct FrameJob {
   const RunConfig& run() const { return config<RunConfig>("run"); }
 };
 
-/// Sections beyond [run], [frames] and those of the trackers in [run] and of a scene that is the
-/// input are used if `more` names them. Throws UsageError and ConfigError.
+/// Sections beyond [run], [frames], those of the trackers in [run], [points] if one feeds on them,
+/// and that of a scene that is the input are used if `more` names them. Throws UsageError and
+/// ConfigError.
 FrameJob settle(const FrameOptions& options, const std::vector<std::string>& more = {});
 
 /// The input, with noise added if so configured.
 std::unique_ptr<Source> open_frames(const FrameJob& job);
-FramePreparer make_preparer(const FrameJob& job);
+/// Without trackers and sinks.
+Scheduler make_scheduler(const FrameJob& job);
 
 /// Writes "glint: warning: ..." to stderr.
 void warn(const std::string& message);

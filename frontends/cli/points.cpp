@@ -28,7 +28,8 @@ void find_all_points(const PointsOptions& options) {
 void add_points(CLI::App& app) {
   auto options = std::make_shared<PointsOptions>();
   CLI::App* command = app.add_subcommand(
-      "points", "Points of single frames: local maxima of the matched filter (the baseline)");
+      "points",
+      "Points of single frames: local maxima of the matched filter (the baseline), or 5x5 units");
   add_frame_options(*command, options->frames);
   command->add_option("--out", options->out, "points.csv")->required();
   const auto setting = [&](const char* option, const char* key, const char* help) {
@@ -42,6 +43,7 @@ void add_points(CLI::App& app) {
   setting("--threshold", "points.threshold", "least value of the matched filter [sigma]");
   setting("--psf-sigma", "points.psf_sigma", "point spread of the matched filter [px]");
   command->footer(
+      "--set points.mode=unit_5x5 takes blocks of 5x5 pixels above the mean intensity instead.\n"
       "Example: how well does the best threshold do beside a tracker?\n"
       "  glint points clip.mp4 --add-noise 53 --out points.csv\n"
       "  glint evaluate --truth truth.csv --tracks tracks.csv --baseline points.csv");

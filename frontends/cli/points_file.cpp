@@ -10,17 +10,14 @@
 namespace glint::cli {
 
 PointsFile::PointsFile(std::string path, const FrameJob& job)
-    : path_(std::move(path)),
-      config_(job.config<PointsConfig>("points")),
-      filter_(config_.psf_sigma, job.device),
-      file_(open_output(path_)) {
+    : path_(std::move(path)), file_(open_output(path_)) {
   file_ << comment_lines(bare_toml(job.sections), "points of single frames")
         << "frame,time,x,y,amplitude\n";
 }
 
 void PointsFile::take(const ScanResult& result) {
   const Scan& scan = result.scan;
-  for (const Point& p : filter_.points(scan.whitened.view(), config_.threshold, config_.radius)) {
+  for (const Point& p : scan.points) {
     file_ << fmt::format("{},{:.9g},{:.7g},{:.7g},{:.6g}\n", scan.frame, scan.time, p.x, p.y,
                          p.amplitude);
     ++count_;
@@ -29,7 +26,8 @@ void PointsFile::take(const ScanResult& result) {
 }
 
 std::int64_t run_sinks(const FrameJob& job, Source& source, const std::vector<Sink*>& sinks) {
-  Scheduler scheduler(job.device, make_preparer(job));
+  Scheduler scheduler = make_scheduler(job);
+  scheduler.find_points();
   Progress progress(source.frame_count(), job.quiet);
   Interrupt interrupt;
   for (Sink* sink : sinks) scheduler.add(*sink);

@@ -3,13 +3,12 @@
 #include <fstream>
 #include <string>
 
-#include "glint/engine/matched_filter.hpp"
 #include "glint/engine/scheduler.hpp"
 #include "glint/frontends/cli/frame_job.hpp"
 
 namespace glint::cli {
 
-/// Writes points.csv: the local maxima of the matched filter on whitened frames, as [points] says.
+/// Writes points.csv: the points of scans.
 class PointsFile : public Sink {
  public:
   /// Throws UsageError if the file cannot be written.
@@ -19,14 +18,12 @@ class PointsFile : public Sink {
 
  private:
   std::string path_;
-  PointsConfig config_;
-  MatchedFilter filter_;
   std::ofstream file_;
   std::int64_t count_ = 0;
 };
 
-/// Runs the frames of `job` into sinks, without trackers, with progress line and Ctrl-C. Returns
-/// the number of frames.
+/// Runs the frames of `job` and their points, as [points] says, into sinks, without trackers, with
+/// progress line and Ctrl-C. Returns the number of frames.
 std::int64_t run_sinks(const FrameJob& job, Source& source, const std::vector<Sink*>& sinks);
 
 }  // namespace glint::cli

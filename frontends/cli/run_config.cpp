@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "glint/engine/frame_preparer.hpp"
+#include "glint/engine/points.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/config/toml.hpp"
@@ -36,12 +37,6 @@ void describe(FieldList& list, RunConfig& c) {
        "sigma of white Gaussian noise added to every frame, for trials");
   list("fps", c.fps, 0, 1e6, "frames/s", "frame rate; 0 = the input's own");
   list("mask", c.mask, {}, "image of the frames' size; pixels that are not 0 are ignored");
-}
-
-void describe(FieldList& list, PointsConfig& c) {
-  list("psf_sigma", c.psf_sigma, 0.1, 2.6, "px", "point spread of the matched filter");
-  list("threshold", c.threshold, -100, 1000, "sigma", "least value of the matched filter");
-  list("radius", c.radius, 1, 100, "px", "a point is the maximum of this neighbourhood");
 }
 
 std::vector<ConfigSection> all_sections() {

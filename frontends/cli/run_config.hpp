@@ -21,14 +21,6 @@ struct RunConfig {
 };
 void describe(FieldList& list, RunConfig& config);
 
-/// How points are found in single frames; the file section [points].
-struct PointsConfig {
-  double psf_sigma = 1.0;  ///< [px]
-  double threshold = 2.0;  ///< [sigma] of the matched filter
-  int radius = 4;          ///< [px]; a smaller one lets a target give several points
-};
-void describe(FieldList& list, PointsConfig& config);
-
 /// All sections that a configuration file may have: run, frames, points, every tracker, every
 /// scene.
 std::vector<ConfigSection> all_sections();

@@ -75,7 +75,7 @@ void track(TrackOptions options) {
   const FrameJob job = settle(options.frames);
   if (job.trackers.empty()) throw UsageError("give --tracker NAME; known are " + tracker_names());
   const auto source = open_frames(job);
-  Scheduler scheduler(job.device, make_preparer(job));
+  Scheduler scheduler = make_scheduler(job);
   for (const std::string& name : job.trackers) {
     const ConfigSection section = section_named(job.sections, "trackers." + name);
     scheduler.add(

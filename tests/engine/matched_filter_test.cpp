@@ -44,7 +44,8 @@ TEST(MatchedFilter, ATargetIsOnePointWithItsDeflection) {
     }
   }
   MatchedFilter filter(1.0, Device::serial());
-  const auto points = filter.points(frame.view(), 2, 1);
+  std::vector<Point> points;
+  filter.points(frame.view(), 2, 1, points);
   ASSERT_EQ(points.size(), 1u);
   EXPECT_NEAR(points[0].x, 20, 1e-3);
   EXPECT_NEAR(points[0].y, 11, 1e-3);
