@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "glint/engine/scenario/scenes.hpp"
-#include "glint/kernels/core/random.hpp"
+#include "glint/engine/scenario/smooth_noise.hpp"
 
 namespace glint {
 namespace {
@@ -47,35 +47,15 @@ int leaves_view(const Path& path, int birth, int death) {
   return frame;
 }
 
-/// Smooth noise over 0 <= x <= 1024, 0 <= y <= 512: normals on a lattice, joined by cubic steps.
-class SmoothNoise {
- public:
-  /// `cell` [px] from node to node; `octave` tells one noise from another.
-  SmoothNoise(int cell, std::uint64_t octave) : cell_(cell), columns_(kWidth / cell + 2) {
-    const int nodes = columns_ * (2 * kHeight / cell + 2);
-    const RandomKey key = random_key(octave, 0, Purpose::scenario);
-    for (int i = 0; i < nodes; ++i) {
-      nodes_.push_back(random_normals(key, static_cast<std::uint32_t>(i)).n[0]);
-    }
-  }
-  double operator()(double x, double y) const {
-    const double i = std::floor(x / cell_), j = std::floor(y / cell_);
-    const double u = x / cell_ - i, v = y / cell_ - j;
-    const double across = u * u * (3 - 2 * u), down = v * v * (3 - 2 * v);
-    const double* node = &nodes_[static_cast<std::size_t>(j * columns_ + i)];
-    return std::lerp(std::lerp(node[0], node[1], across),
-                     std::lerp(node[columns_], node[columns_ + 1], across), down);
-  }
-
- private:
-  int cell_, columns_;
-  std::vector<double> nodes_;
+/// Noise over the frame and as much again below it, for clouds that are flatter than wide.
+struct Octave : SmoothNoise {
+  Octave(int cell, std::uint64_t octave) : SmoothNoise(kWidth, 2 * kHeight, cell, octave) {}
 };
 
 /// Grey levels of the background: a sky that brightens downwards, clouds, rough ground.
 struct Landscape {
-  SmoothNoise large{160, 1}, medium{60, 2}, small{24, 3};
-  SmoothNoise fields{30, 4}, rough{7, 5}, hills{120, 6}, trees{18, 7};
+  Octave large{160, 1}, medium{60, 2}, small{24, 3};
+  Octave fields{30, 4}, rough{7, 5}, hills{120, 6}, trees{18, 7};
 
   double sky(double x, double y) const {
     const double clouds = 5 * large(x, 2 * y) + 2.5 * medium(x, 2 * y) + 1.2 * small(x, y);

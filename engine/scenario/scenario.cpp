@@ -31,6 +31,12 @@ void add_target(const PointSpread& psf, const TruthPoint& target, ImageView<floa
   }
 }
 
+Patch patch_of(const Scene& scene, std::size_t id, const TruthPoint& at) {
+  const ScriptedTarget& target = scene.targets[id];
+  return target.silhouette->at(static_cast<double>(at.frame - target.birth),
+                               {at.x, at.y, at.vx, at.vy});
+}
+
 /// Pixels are counted row by row; four in a row share the address pixel / 4.
 void add_noise(double sigma, RandomKey key, ImageView<float> out) {
   if (sigma == 0) return;
@@ -75,6 +81,12 @@ std::vector<TruthPoint> truth_of(const Scene& scene) {
   return all;
 }
 
+Patch patch_at(const Scene& scene, std::size_t id, int frame) {
+  const ScriptedTarget& target = scene.targets.at(id);
+  const Kinematics k = target.path((frame - target.birth) * scene.interval);
+  return target.silhouette->at(frame - target.birth, k);
+}
+
 Image<float> render(const Scene& scene, std::uint64_t seed, int frame) {
   Image<float> image(scene.width, scene.height);
   start_with_background(scene, image.view());
@@ -83,7 +95,12 @@ Image<float> render(const Scene& scene, std::uint64_t seed, int frame) {
     const Normals4 n = random_normals(jitter, static_cast<std::uint32_t>(target.track_id));
     target.x += scene.jitter_sigma * n.n[0];
     target.y += scene.jitter_sigma * n.n[1];
-    add_target(scene.point_spread, target, image.view());
+    const auto id = static_cast<std::size_t>(target.track_id);
+    if (scene.targets[id].silhouette) {
+      paint(patch_of(scene, id, target), image.view());
+    } else {
+      add_target(scene.point_spread, target, image.view());
+    }
   }
   add_noise(scene.noise_sigma, random_key(seed, frame, Purpose::sensor_noise), image.view());
   if (scene.grey_levels) round_to_grey_levels(image.view());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "glint/engine/config.hpp"
 #include "glint/engine/scenario/path.hpp"
+#include "glint/engine/scenario/silhouette.hpp"
 #include "glint/engine/scheduler.hpp"
 #include "glint/engine/truth.hpp"
 #include "glint/kernels/core/frame.hpp"
@@ -21,6 +23,7 @@ struct ScriptedTarget {
   int birth = 0, death = 0;  ///< seen in frames birth <= frame < death, counted from 0
   double intensity = 0;      ///< total over the point spread, in the units of the pixels
   Path path;
+  std::shared_ptr<const Silhouette> silhouette{};  ///< extended, in place of the point spread
 };
 
 /// A simulated sequence: everything that follows is a function of the scene, a seed and the frame.
@@ -43,9 +46,12 @@ struct Scene {
 std::vector<TruthPoint> truth_at(const Scene& scene, int frame);
 /// The same for all frames, by frame, then by id.
 std::vector<TruthPoint> truth_of(const Scene& scene);
-/// What the sensor sees at `frame`: background, targets (pixel-integrated Gaussian, jittered),
-/// noise.
+/// What the sensor sees at `frame`: background, targets (pixel-integrated Gaussian or silhouette,
+/// jittered), noise.
 Image<float> render(const Scene& scene, std::uint64_t seed, int frame);
+
+/// What target `id` covers at `frame` (it must be alive then, and extended), without jitter.
+Patch patch_at(const Scene& scene, std::size_t id, int frame);
 
 /// How a scene is found by name, configured and made.
 struct SceneEntry {

@@ -50,6 +50,18 @@ struct IrClipScene {
 void describe(FieldList& list, IrClipScene& config);
 Scene make_scene(const IrClipScene& config);
 
+/// P-HPMHT section 4: a dark aircraft (jet or helicopter) on a curved path before a cloudy sky, a
+/// 200x200 crop in grey levels. The paper's scan is every second frame.
+struct AircraftScene {
+  static constexpr std::string_view kName = "aircraft";
+  int scenario = 1;  ///< row of table 1
+  int frames = 41;
+  double clutter = 1;
+  int variant = 0;
+};
+void describe(FieldList& list, AircraftScene& config);
+Scene make_scene(const AircraftScene& config);
+
 /// White noise and nothing else.
 struct NoiseScene {
   static constexpr std::string_view kName = "noise";
