@@ -103,7 +103,7 @@ FramePreparer make_preparer(const FrameJob& job) {
 
 void add_run_options(CLI::App& command, FrameOptions& options) {
   command.add_option("--config", options.config,
-                     "TOML file, or a tracks.csv: the settings of the run that wrote it");
+                     "TOML file, or tracks in any format: the settings of the run that wrote them");
   command.add_option("--set", options.sets, "key=value, e.g. frames.polarity=dark; repeatable")
       ->allow_extra_args(false);
   add_run_option(command, options, "--device", "device", "auto, serial or tbb [auto]");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "glint/engine/frame_preparer.hpp"
@@ -11,6 +12,8 @@
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/config/toml.hpp"
+#include "glint/frontends/files/track_file.hpp"
+#include "glint/frontends/usage_error.hpp"
 
 namespace glint::cli {
 namespace {
@@ -23,6 +26,18 @@ std::string config_of_track_file(std::ifstream& file) {
     if (line.starts_with('#')) text += line.substr(1);
   }
   return text;
+}
+
+/// The configuration in the first line of tracks as JSON lines.
+std::string config_of_json(const std::string& line, const std::string& path) {
+  const auto run = nlohmann::json::parse(line, nullptr, false);
+  const auto config = run.is_object() ? run.find("config") : run.end();
+  if (config == run.end() || !config->is_string()) {
+    throw UsageError(path +
+                     ": its first line holds no configuration of a run; give a .jsonl that "
+                     "glint track wrote, or a TOML file");
+  }
+  return config->get<std::string>();
 }
 
 }  // namespace
@@ -55,8 +70,14 @@ ConfigSection section_named(std::span<const ConfigSection> sections, const std::
 }
 
 void read_config(const std::string& path, std::span<ConfigSection> sections) {
+  if (path.ends_with(".txt") && std::ifstream(sidecar_path(path))) {
+    return read_toml(sidecar_path(path), sections);
+  }
   std::ifstream file(path);
-  if (file.get() != '#' || file.get() != '#') return read_toml(path, sections);
+  std::string first;
+  std::getline(file, first);
+  if (first.starts_with('{')) return parse_toml(config_of_json(first, path), path, sections);
+  if (!first.starts_with("##")) return read_toml(path, sections);
   file.seekg(0);
   parse_toml(config_of_track_file(file), path, sections);
 }

@@ -28,8 +28,8 @@ std::vector<ConfigSection> all_sections();
 /// The section of that name. Copies of a section share its settings.
 ConfigSection section_named(std::span<const ConfigSection> sections, const std::string& name);
 
-/// Sets what a file says: TOML, or a track file, whose header holds the configuration of the run
-/// that wrote it. Throws as read_toml() does.
+/// Sets what a file says: TOML, or a track file of any format, whose header or sidecar holds the
+/// configuration of the run that wrote it. Throws as read_toml() does.
 void read_config(const std::string& path, std::span<ConfigSection> sections);
 
 /// Settings as TOML without help texts.

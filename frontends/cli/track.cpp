@@ -68,6 +68,15 @@ void print_summary(const FrameJob& job, const Scheduler& scheduler, double secon
                                                 : fmt::format("{}", fmt::join(written, ", ")));
 }
 
+/// The first error is the one to report.
+void finish_after_failure(TrackOutputs& outputs) {
+  try {
+    outputs.finish();
+  } catch (const std::exception& e) {
+    warn(e.what());
+  }
+}
+
 void track(TrackOptions options) {
   if (!options.trackers.empty()) {
     options.frames.run.emplace_back("tracker", fmt::format("{}", fmt::join(options.trackers, " ")));
@@ -92,10 +101,13 @@ void track(TrackOptions options) {
     scheduler.add(progress);
     scheduler.run(*source, interrupt.stop());
   } catch (...) {
-    outputs.finish();
+    finish_after_failure(outputs);
     throw;
   }
   outputs.finish();
+  if (scheduler.frames() == 0 && !interrupt.happened()) {
+    throw std::runtime_error(job.inputs.front() + ": holds no frames; give one that does");
+  }
   if (!job.quiet) {
     print_summary(job, scheduler, now() - start, source->frame_rate(), outputs.paths());
   }
@@ -117,7 +129,8 @@ void add_track(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--out", options->outputs.tracks,
-                   "tracks as .csv, .jsonl or .mot.txt (confirmed only); repeatable")
+                   "tracks as .csv, .jsonl or .mot.txt (confirmed only, with the run's settings "
+                   "beside them in .mot.txt.toml); repeatable")
       ->allow_extra_args(false);
   command->add_option("--overlay", options->outputs.overlay,
                       "video of the frames with the tracks, .mp4, .avi or .mkv");
@@ -130,7 +143,7 @@ void add_track(CLI::App& app) {
       "  glint track clip.mp4 --tracker smc-phd --out tracks.csv --overlay overlay.mp4\n"
       "  glint track frames/f_%04d.png --fps 50 --tracker smc-phd --set frames.polarity=dark\n"
       "  glint track clip.mp4 --tracker smc-phd --add-noise 53 --seed 2 --out noisy.csv\n"
-      "  glint track clip.mp4 --config tracks.csv      repeats the run that wrote tracks.csv\n"
+      "  glint track clip.mp4 --config tracks.csv      repeats the run that wrote it\n"
       "All settings: glint config TRACKER");
   command->callback([options] { track(*options); });
 }

@@ -2,7 +2,7 @@
 #include "glint/frontends/cli/track_outputs.hpp"
 
 #include <algorithm>
-#include <filesystem>
+#include <exception>
 #include <utility>
 
 namespace glint::cli {
@@ -41,8 +41,7 @@ TrackOutputs::TrackOutputs(const OutputOptions& options, const FrameJob& job, do
     for (std::size_t i = 0; i < job.trackers.size(); ++i) {
       const std::string& tracker = job.trackers[i];
       const std::string file = job.trackers.size() > 1 ? path_for(path, tracker) : path;
-      tracks_.push_back(
-          {i, file, TrackFile(file, {tracker, bare_toml(job.sections)}, options.revised)});
+      tracks_.push_back({i, TrackFile(file, {tracker, bare_toml(job.sections)}, options.revised)});
     }
   }
   if (!options.overlay.empty()) pictures_.push_back(open_overlay(options.overlay, frame_rate));
@@ -59,15 +58,28 @@ void TrackOutputs::take(const ScanResult& result) {
 }
 
 void TrackOutputs::finish() {
+  std::exception_ptr first;
+  const auto attempt = [&first](const auto& work) {
+    try {
+      work();
+    } catch (...) {
+      if (!first) first = std::current_exception();
+    }
+  };
   for (Track& track : tracks_) {
-    track.file.close(*scheduler_.logs()[track.tracker], notes(scheduler_, track.tracker));
+    attempt([&] {
+      track.file.close(*scheduler_.logs()[track.tracker], notes(scheduler_, track.tracker));
+    });
   }
-  for (const auto& picture : pictures_) picture->finish();
+  for (const auto& picture : pictures_) attempt([&] { picture->finish(); });
+  if (first) std::rethrow_exception(first);
 }
 
 std::vector<std::string> TrackOutputs::paths() const {
   std::vector<std::string> paths;
-  for (const Track& track : tracks_) paths.push_back(track.path);
+  for (const Track& track : tracks_) {
+    for (std::string& path : track.file.paths()) paths.push_back(std::move(path));
+  }
   for (const auto& picture : pictures_) paths.push_back(picture->path());
   return paths;
 }

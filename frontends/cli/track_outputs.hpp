@@ -25,14 +25,14 @@ class TrackOutputs : public Sink {
   TrackOutputs(const OutputOptions& options, const FrameJob& job, double frame_rate,
                const Scheduler& scheduler);
   void take(const ScanResult& result) override;
-  /// Closes the files with what was tracked so far; also after a failed run.
+  /// Closes the files with what was tracked so far; also after a failed run. One that cannot be
+  /// closed keeps no other from it: what the first one threw comes out at the end.
   void finish();
   std::vector<std::string> paths() const;
 
  private:
   struct Track {
     std::size_t tracker;
-    std::string path;
     TrackFile file;
   };
   const Scheduler& scheduler_;

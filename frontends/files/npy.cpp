@@ -2,6 +2,7 @@
 #include "glint/frontends/files/npy.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -136,6 +137,10 @@ class NpySource : public Source {
       refuse(path_, fmt::format("has {} axes; glint reads (frames, height, width) or (height, "
                                 "width): reshape it",
                                 n));
+    }
+    if (std::ranges::find(shape, 0) != shape.end()) {
+      refuse(path_, fmt::format("has shape ({}): it holds no pixels; save at least one frame",
+                                fmt::join(shape, ", ")));
     }
     frames_ = n == 3 ? shape[0] : 1;
     height_ = static_cast<int>(shape[n - 2]);

@@ -27,13 +27,34 @@ void append_cell(std::string& row, double value) {
   if (!std::isnan(value)) fmt::format_to(std::back_inserter(row), "{:.8g}", value);
 }
 
+using Estimates = std::vector<std::string>;
+
+std::string estimate_lines(const char* mark, const Estimates* estimated) {
+  if (estimated == nullptr) return fmt::format("{} estimated: nothing yet\n", mark);
+  std::string text;
+  for (const std::string& line : *estimated) text += fmt::format("{} estimated: {}\n", mark, line);
+  return text;
+}
+
 class CsvFormat : public TrackFormat {
  public:
-  std::string header(const RunRecord& run, const std::vector<std::string>& modes) override {
-    std::string text =
-        comment_lines(run.config, "tracks of " + run.tracker +
-                                      "; to repeat the run: glint track INPUT --config THIS_FILE");
-    text += "frame,time,track_id,status";
+  std::string header(const RunRecord& run, const Estimates* estimated) const override {
+    const std::string title =
+        "tracks of " + run.tracker + "; to repeat the run: glint track INPUT --config THIS_FILE";
+    return comment_lines(run.config, title) + estimate_lines("##", estimated);
+  }
+  std::string padding(std::size_t bytes) const override {
+    constexpr std::size_t kLine = 80;
+    std::string text;
+    while (bytes > 0) {
+      const std::size_t line = bytes >= 2 * kLine ? kLine : bytes;
+      text += "##" + std::string(line - 3, ' ') + '\n';
+      bytes -= line;
+    }
+    return text;
+  }
+  std::string columns(const std::vector<std::string>& modes) override {
+    std::string text = "frame,time,track_id,status";
     for (const auto column : kValueNames) text.append(",").append(column);
     for (const auto& mode : modes) text += ",p_" + mode;
     return text + '\n';
@@ -44,22 +65,27 @@ class CsvFormat : public TrackFormat {
     for (const double probability : p.mode_probability) append_cell(row, probability);
     return row + '\n';
   }
-  std::string trailer(const std::vector<std::string>& notes) const override {
-    std::string text;
-    for (const std::string& note : notes) text += "## estimated: " + note + '\n';
-    return text;
+  std::string trailer(const Estimates& estimated) const override {
+    return estimate_lines("##", &estimated);
   }
 };
 
-/// One object a line: first the run, then a point each under the names of tracks.csv, last what was
-/// estimated. Unknown values are null.
+/// One object a line: first the run with what was estimated, then a point each under the names of
+/// tracks.csv. Unknown values are null. Where the first line has no room, the estimates come last.
 class JsonLinesFormat : public TrackFormat {
  public:
-  std::string header(const RunRecord& run, const std::vector<std::string>& modes) override {
-    modes_ = modes;
-    const nlohmann::ordered_json line = {
+  std::string header(const RunRecord& run, const Estimates* estimated) const override {
+    nlohmann::ordered_json line = {
         {"glint", GLINT_VERSION}, {"tracker", run.tracker}, {"config", run.config}};
-    return line.dump() + '\n';
+    line["estimated"] = estimated != nullptr ? nlohmann::ordered_json(*estimated) : nullptr;
+    return line.dump();
+  }
+  std::string padding(std::size_t bytes) const override {
+    return std::string(bytes - 1, ' ') + '\n';
+  }
+  std::string columns(const std::vector<std::string>& modes) override {
+    modes_ = modes;
+    return {};
   }
   std::string point(const TrackPoint& p) const override {
     nlohmann::ordered_json line = {
@@ -73,8 +99,8 @@ class JsonLinesFormat : public TrackFormat {
     }
     return line.dump() + '\n';
   }
-  std::string trailer(const std::vector<std::string>& notes) const override {
-    return nlohmann::ordered_json{{"estimated", notes}}.dump() + '\n';
+  std::string trailer(const Estimates& estimated) const override {
+    return nlohmann::ordered_json{{"estimated", estimated}}.dump() + '\n';
   }
 
  private:
@@ -84,7 +110,9 @@ class JsonLinesFormat : public TrackFormat {
 /// MOTChallenge: confirmed points only, as boxes about the target; the format has no comments.
 class MotFormat : public TrackFormat {
  public:
-  std::string header(const RunRecord&, const std::vector<std::string>&) override { return {}; }
+  std::string header(const RunRecord&, const Estimates*) const override { return {}; }
+  std::string padding(std::size_t) const override { return {}; }
+  std::string columns(const std::vector<std::string>&) override { return {}; }
   std::string point(const TrackPoint& p) const override {
     if (p.status != TrackStatus::confirmed) return {};
     constexpr double kSide = 7;  // [px], +-3 sigma of the default point spread
@@ -93,7 +121,8 @@ class MotFormat : public TrackFormat {
     return fmt::format("{},{},{:.8g},{:.8g},{},{},{:.6g},-1,-1,-1\n", p.frame + 1, p.track_id,
                        p.x + 1 - kSide / 2, p.y + 1 - kSide / 2, kSide, kSide, confidence);
   }
-  std::string trailer(const std::vector<std::string>&) const override { return {}; }
+  std::string trailer(const Estimates&) const override { return {}; }
+  bool bare() const override { return true; }
 };
 
 }  // namespace
@@ -103,6 +132,15 @@ std::unique_ptr<TrackFormat> track_format(const std::string& path) {
   if (path.ends_with(".jsonl")) return std::make_unique<JsonLinesFormat>();
   if (path.ends_with(".txt")) return std::make_unique<MotFormat>();
   throw UsageError(path + ": unknown track format; end the name in .csv, .jsonl or .mot.txt");
+}
+
+std::string sidecar_path(const std::string& path) { return path + ".toml"; }
+
+std::string sidecar_text(const RunRecord& run, const std::vector<std::string>* estimated) {
+  return fmt::format(
+             "# glint {}, tracks of {}; to repeat the run: glint track INPUT --config THIS_FILE\n",
+             GLINT_VERSION, run.tracker) +
+         estimate_lines("#", estimated) + run.config;
 }
 
 }  // namespace glint

@@ -26,6 +26,12 @@ void check_writable(const std::string& path) {
   }
 }
 
+/// A file that was only opened to see whether it can be written.
+void remove_if_empty(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_regular_file(path, ignored) && fs::is_empty(path, ignored)) fs::remove(path, ignored);
+}
+
 class OverlayVideo : public ClosingSink {
  public:
   OverlayVideo(std::string path, double frame_rate, Warn warn)
@@ -47,7 +53,10 @@ class OverlayVideo : public ClosingSink {
     if (!writer_.isOpened()) open(picture.size());
     writer_.write(picture);
   }
-  void finish() override { writer_.release(); }
+  void finish() override {
+    writer_.release();
+    remove_if_empty(path_);
+  }
   std::string path() const override { return path_; }
 
  private:
@@ -103,7 +112,7 @@ class OverlayPicture : public ClosingSink {
     tails_ = painter_.tails();
   }
   void finish() override {
-    if (!frame_) return;
+    if (!frame_) return remove_if_empty(path_);
     const cv::Mat raw = painter_.grey(frame_.view(), 0);
     cv::Mat tracked = raw.clone();
     painter_.draw(tracked, tails_);

@@ -16,14 +16,15 @@ class ClosingSink : public Sink {
 };
 
 /// Writes a video of the frames with the tracks drawn on them. If no H.264 or MPEG-4 encoder is
-/// there, motion JPEG is written into an .avi of the same name, with a warning. Throws UsageError
-/// if the path cannot be written or does not end in .mp4, .avi or .mkv.
+/// there, motion JPEG is written into an .avi of the same name, with a warning. Without frames no
+/// file is left. Throws UsageError if the path cannot be written or does not end in .mp4, .avi or
+/// .mkv.
 std::unique_ptr<ClosingSink> overlay_video(const std::string& path, double frame_rate,
                                            const Warn& warn);
 
 /// Writes one picture at the end: left the raw frame, right the same with tracks; of the last frame
-/// with most to see: many confirmed tracks and long tails. Throws UsageError if the path cannot be
-/// written.
+/// with most to see: many confirmed tracks and long tails; none without frames. Throws UsageError
+/// if the path cannot be written.
 std::unique_ptr<ClosingSink> overlay_picture(const std::string& path);
 
 }  // namespace glint

@@ -1,66 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-#include <sys/wait.h>
+#include "cli.hpp"
 
-#include <array>
+#include <gtest/gtest.h>
+
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
-#include "folder.hpp"
-#include "glint/frontends/files/npy.hpp"
 #include "glint/frontends/files/tables.hpp"
 
-namespace glint {
+namespace glint::test {
 namespace {
-
-using test::content_of;
-using test::Folder;
-using test::has;
-
-struct Result {
-  int code = -1;
-  std::string out, err;
-};
-
-/// Runs the built program with `arguments`, which a shell splits.
-Result glint(const Folder& folder, const std::string& arguments) {
-  const std::string err = folder / "stderr.txt";
-  FILE* pipe = popen((std::string(GLINT_BINARY) + " " + arguments + " 2>" + err).c_str(), "r");
-  Result result;
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) {
-    result.out.append(buffer.data(), n);
-  }
-  const int status = pclose(pipe);
-  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  result.err = content_of(err);
-  return result;
-}
-
-/// One line "glint: ..." that holds `part`, and exit code `code`.
-void expect_error(const Result& result, int code, const std::string& part) {
-  EXPECT_EQ(result.code, code) << result.err;
-  EXPECT_TRUE(result.err.starts_with("glint: ")) << result.err;
-  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-  EXPECT_TRUE(has(result.err, part)) << result.err;
-}
-
-/// A cube of flat frames, with `odd` in one pixel of the second frame.
-std::string cube(const Folder& folder, int width, int height, int frames, float value, float odd) {
-  NpyWriter writer(folder / "cube.npy");
-  for (int f = 0; f < frames; ++f) {
-    Image<float> image(width, height);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        image.view()(x, y) = value * static_cast<float>((7 * x + 3 * y + 5 * f) % 11);
-      }
-    }
-    if (f == 1) image.view()(width / 2, height / 2) = odd;
-    writer.write(image.view());
-  }
-  return folder / "cube.npy";
-}
 
 TEST(Cli, ShowsHelpAndVersion) {
   const Folder folder;
@@ -98,18 +47,8 @@ TEST(Cli, WrongUseIsExitCodeTwoAndOneLine) {
 TEST(Cli, ATruncatedInputIsExitCodeOne) {
   const Folder folder;
   const std::string path = cube(folder, 32, 32, 4, 1, 1);
-  test::truncate(path, 0.5);
+  truncate(path, 0.5);
   expect_error(glint(folder, "track " + path + " --tracker smc-phd"), 1, "truncated");
-}
-
-TEST(Cli, AFailureKeepsWhatWasTracked) {
-  const Folder folder;
-  std::filesystem::rename(cube(folder, 32, 32, 4, 1, 1), folder / "a.npy");
-  std::filesystem::rename(cube(folder, 33, 32, 4, 1, 1), folder / "b.npy");
-  const Result result = glint(folder, "track " + (folder / "a.npy") + " " + (folder / "b.npy") +
-                                          " --tracker smc-phd --out " + (folder / "t.csv"));
-  expect_error(result, 1, "33x32");
-  EXPECT_TRUE(has(content_of(folder / "t.csv"), "## estimated"));
 }
 
 TEST(Cli, OddInputsHaveADefinedResult) {
@@ -131,29 +70,6 @@ TEST(Cli, OddInputsHaveADefinedResult) {
   runs(3, 2, 6, 1, 1);    // smaller than the window
   runs(1, 1, 6, 1, 1);
   runs(32, 32, 6, nan, nan);  // nothing but NaN
-}
-
-TEST(Cli, SimulatedFramesAreTrackedAndARunRepeatsFromItsOwnFile) {
-  const Folder folder;
-  const std::string clip = folder / "clip";
-  ASSERT_EQ(glint(folder, "simulate crossing --seed 3 --format npy --out " + clip).code, 0);
-  EXPECT_GT(read_truth(clip + "/truth.csv").size(), 20u);
-  EXPECT_GT(read_points(clip + "/points.csv").size(), 20u);
-  const std::string first = folder / "1.csv", second = folder / "2.csv", third = folder / "3.csv";
-  ASSERT_EQ(glint(folder, "track " + clip +
-                              " --tracker smc-phd --seed 5 --add-noise 0.1 --set "
-                              "birth_particles=3000 --quiet --out " +
-                              first)
-                .code,
-            0);
-  EXPECT_TRUE(has(content_of(first), "# seed = 5\n"));
-  EXPECT_TRUE(has(content_of(first), "# birth_particles = 3000\n"));
-  EXPECT_GT(read_tracks(first).size(), 20u);
-  ASSERT_EQ(glint(folder, "track " + clip + " --config " + first + " --out " + second).code, 0);
-  EXPECT_EQ(content_of(first), content_of(second));
-  ASSERT_EQ(glint(folder, "track " + clip + " --config " + first + " --seed 6 --out " + third).code,
-            0);
-  EXPECT_NE(content_of(first), content_of(third));
 }
 
 TEST(Cli, ConfigOfATrackerIsAFileThatChangesNothing) {
@@ -187,4 +103,4 @@ TEST(Cli, MaskedPixelsFindNothing) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::test

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/frontends/files/tables.hpp"
 
+#include <sys/stat.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
 
 #include "folder.hpp"
 #include "glint/frontends/files/track_file.hpp"
@@ -77,12 +81,14 @@ TEST(TrackFile, CsvReadsBackAndHoldsConfigurationAndNotes) {
     file.close(log, {"sigma 3"});
   }
   const std::string text = content_of(path);
-  EXPECT_TRUE(has(text,
-                  "\n# [run]\n# seed = 5\nframe,time,track_id,status,x,y,vx,vy,intensity,"
-                  "existence,var_x,cov_xy,var_y,p_cv,p_ct\n"
-                  "0,0,1,tentative,1.25,2.5,,,,0.75,,,,0.25,0.75\n"))
+  EXPECT_TRUE(has(
+      text,
+      "\nframe,time,track_id,status,x,y,vx,vy,intensity,existence,var_x,cov_xy,var_y,p_cv,p_ct\n"
+      "0,0,1,tentative,1.25,2.5,,,,0.75,,,,0.25,0.75\n"))
       << text;
-  EXPECT_TRUE(has(text, "## estimated: sigma 3\n"));
+  EXPECT_TRUE(has(text, "\n# [run]\n# seed = 5\n## estimated: sigma 3\n")) << text;
+  EXPECT_LT(text.find("## estimated: sigma 3\n"), text.find("\nframe,"));
+  EXPECT_FALSE(has(text, "nothing yet"));
   const auto tracks = read_tracks(path);
   ASSERT_EQ(tracks.size(), 2u);
   EXPECT_EQ(tracks[1].status, TrackStatus::confirmed);
@@ -96,6 +102,32 @@ TEST(TrackFile, EveryFrameIsThereBeforeTheEnd) {
   const std::vector points{point(0, 1, 1, TrackStatus::confirmed)};
   file.write(points, {});
   EXPECT_EQ(read_tracks(folder / "t.csv").size(), 1u);
+}
+
+TEST(TrackFile, EstimatesThatDoNotFitTheHeaderComeLast) {
+  const Folder folder;
+  const std::string path = folder / "t.csv", note(2000, 'x');
+  TrackFile file(path, {"t", ""}, false);
+  file.write(std::vector{point(0, 1, 1, TrackStatus::confirmed)}, {});
+  file.close({}, {note});
+  EXPECT_TRUE(content_of(path).ends_with("## estimated: " + note + "\n"));
+  EXPECT_EQ(read_tracks(path).size(), 1u);
+}
+
+TEST(TrackFile, APipeGetsTheEstimatesLast) {
+  const Folder folder;
+  const std::string path = folder / "t.csv";
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  std::string text;
+  std::thread reader([&] { text = content_of(path); });
+  {
+    TrackFile file(path, {"t", ""}, false);
+    file.write(std::vector{point(0, 1, 1, TrackStatus::confirmed)}, {});
+    file.close({}, {"sigma 3"});
+  }
+  reader.join();
+  EXPECT_TRUE(has(text, "\n0,0,1,confirmed")) << text;
+  EXPECT_TRUE(text.ends_with("## estimated: sigma 3\n")) << text;
 }
 
 TEST(TrackFile, LatePointsAreAdded) {
@@ -133,14 +165,14 @@ TEST(TrackFile, JsonLinesAreObjectsWithTheNamesOfTheColumns) {
   std::istringstream lines(content_of(folder / "t.jsonl"));
   std::vector<nlohmann::json> json;
   for (std::string line; std::getline(lines, line);) json.push_back(nlohmann::json::parse(line));
-  ASSERT_EQ(json.size(), 3u);
+  ASSERT_EQ(json.size(), 2u);
   EXPECT_EQ(json[0]["config"], "[run]\n");
   EXPECT_EQ(json[1]["frame"], 3);
   EXPECT_EQ(json[1]["status"], "halted");
   EXPECT_EQ(json[1]["x"], 1.5);
   EXPECT_TRUE(json[1]["vx"].is_null());
   EXPECT_EQ(json[1]["p_ct"], 0.75);
-  EXPECT_EQ(json[2]["estimated"][0], "note");
+  EXPECT_EQ(json[0]["estimated"][0], "note");
 }
 
 TEST(TrackFile, MotCountsFromOneAndHoldsConfirmedPointsOnly) {

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// What glint track writes: runs that repeat from their own files, and runs that fail.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli.hpp"
+#include "glint/frontends/files/tables.hpp"
+
+namespace glint::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Two cubes of different sizes: the second one fails at frame 4.
+std::string cubes_that_fail(const Folder& folder) {
+  fs::rename(cube(folder, 32, 32, 4, 1, 1), folder / "a.npy");
+  fs::rename(cube(folder, 33, 32, 4, 1, 1), folder / "b.npy");
+  return "track " + (folder / "a.npy") + ' ' + (folder / "b.npy") + " --tracker smc-phd ";
+}
+
+/// A file of that name that can be opened, but not written.
+std::string full_disk(const Folder& folder, const std::string& name) {
+  fs::create_symlink("/dev/full", folder / name);
+  return folder / name;
+}
+
+bool estimates_head(const std::string& csv) {
+  return csv.find("## estimated: noise sigma") < csv.find("\nframe,");
+}
+
+TEST(CliTrack, SimulatedFramesAreTrackedAndARunRepeatsFromItsOwnFile) {
+  const Folder folder;
+  const std::string clip = folder / "clip";
+  ASSERT_EQ(glint(folder, "simulate crossing --seed 3 --format npy --out " + clip).code, 0);
+  EXPECT_GT(read_truth(clip + "/truth.csv").size(), 20u);
+  EXPECT_GT(read_points(clip + "/points.csv").size(), 20u);
+  const std::string first = folder / "1.csv", second = folder / "2.csv", third = folder / "3.csv";
+  ASSERT_EQ(glint(folder, "track " + clip +
+                              " --tracker smc-phd --seed 5 --add-noise 0.1 --set "
+                              "birth_particles=3000 --quiet --out " +
+                              first)
+                .code,
+            0);
+  EXPECT_TRUE(has(content_of(first), "# seed = 5\n"));
+  EXPECT_TRUE(has(content_of(first), "# birth_particles = 3000\n"));
+  EXPECT_GT(read_tracks(first).size(), 20u);
+  ASSERT_EQ(glint(folder, "track " + clip + " --config " + first + " --out " + second).code, 0);
+  EXPECT_EQ(content_of(first), content_of(second));
+  ASSERT_EQ(glint(folder, "track " + clip + " --config " + first + " --seed 6 --out " + third).code,
+            0);
+  EXPECT_NE(content_of(first), content_of(third));
+}
+
+TEST(CliTrack, EveryFormatRepeatsItsRun) {
+  const Folder folder;
+  const std::string first = folder / "1.csv";
+  const std::string settings = " --seed 5 --set birth_particles=3000 --set psf_sigma=auto";
+  std::string outs = " --out " + first;
+  for (const char* name : {"1.jsonl", "1.mot.txt"}) outs += " --out " + (folder / name);
+  ASSERT_EQ(glint(folder, "track scene:crossing --tracker smc-phd" + settings + outs).code, 0);
+  for (const char* name : {"1.csv", "1.jsonl", "1.mot.txt", "1.mot.txt.toml"}) {
+    const std::string again = folder / "2.csv";
+    const Result result =
+        glint(folder, "track scene:crossing --config " + (folder / name) + " --out " + again);
+    EXPECT_EQ(result.code, 0) << name << ": " << result.err;
+    EXPECT_EQ(content_of(first), content_of(again)) << name;
+  }
+}
+
+TEST(CliTrack, WhatWasEstimatedStandsInTheHeader) {
+  const Folder folder;
+  std::string outs;
+  for (const char* name : {"t.csv", "t.jsonl", "t.mot.txt"}) outs += " --out " + (folder / name);
+  ASSERT_EQ(
+      glint(folder, "track scene:crossing --tracker smc-phd --set psf_sigma=auto" + outs).code, 0);
+  const std::string csv = content_of(folder / "t.csv");
+  EXPECT_TRUE(estimates_head(csv));
+  EXPECT_LT(csv.find("psf_sigma = ", csv.find("## estimated")), csv.find("\nframe,"));
+  const std::string json = content_of(folder / "t.jsonl");
+  const auto line = nlohmann::json::parse(json.substr(0, json.find('\n')));
+  EXPECT_EQ(line["estimated"].size(), 3u) << line;
+  EXPECT_TRUE(has(content_of(folder / "t.mot.txt.toml"), "# estimated: noise sigma"));
+}
+
+TEST(CliTrack, WithoutARunsConfigurationJsonIsRefused) {
+  const Folder folder;
+  folder.write("t.jsonl", "{\"frame\":0}\n");
+  expect_error(glint(folder, "track scene:noise --config " + (folder / "t.jsonl")), 2, "t.jsonl");
+}
+
+TEST(CliTrack, AFailureKeepsWhatWasTracked) {
+  const Folder folder;
+  const Result result = glint(folder, cubes_that_fail(folder) + "--out " + (folder / "t.csv"));
+  expect_error(result, 1, "33x32");
+  EXPECT_TRUE(estimates_head(content_of(folder / "t.csv")));
+}
+
+TEST(CliTrack, AnOutputThatFailsKeepsNoOtherFromItsEnd) {
+  const Folder folder;
+  const Result result =
+      glint(folder, "track scene:noise --tracker smc-phd --out " + full_disk(folder, "full.csv") +
+                        " --out " + (folder / "t.csv"));
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(has(result.err, "glint: " + (folder / "full.csv"))) << result.err;
+  EXPECT_TRUE(estimates_head(content_of(folder / "t.csv")));
+}
+
+// The revised record is all that such a file gets, so that it fails only at the end.
+TEST(CliTrack, TheFirstErrorIsTheOneReported) {
+  const Folder folder;
+  const Result result =
+      glint(folder, cubes_that_fail(folder) + "--revised --out " + full_disk(folder, "full.csv"));
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(has(result.err, "glint: warning: " + (folder / "full.csv"))) << result.err;
+  EXPECT_TRUE(has(result.err.substr(result.err.find('\n')), "33x32")) << result.err;
+}
+
+TEST(CliTrack, AnInputWithoutFramesIsAnError) {
+  const Folder folder;
+  const std::string start("\x93NUMPY\x01\0v\0", 10);
+  std::string shape = "{'descr': '<f4', 'fortran_order': False, 'shape': (0, 16, 16), }";
+  shape.resize(117, ' ');
+  folder.write("empty.npy", start + shape + '\n');
+  const std::string out = folder / "t.csv";
+  expect_error(glint(folder, "track " + (folder / "empty.npy") + " --tracker smc-phd --out " + out),
+               1, "holds no pixels");
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(CliTrack, WithoutAFrameNoPictureIsLeft) {
+  const Folder folder;
+  fs::rename(cube(folder, 33, 32, 1, 1, 1), folder / "mask.npy");
+  const Result result =
+      glint(folder, "track " + cube(folder, 32, 32, 4, 1, 1) + " --tracker smc-phd --mask " +
+                        (folder / "mask.npy") + " --overlay " + (folder / "o.mp4") + " --picture " +
+                        (folder / "p.png"));
+  EXPECT_NE(result.code, 0);
+  EXPECT_FALSE(fs::exists(folder / "o.mp4"));
+  EXPECT_FALSE(fs::exists(folder / "p.png"));
+}
+
+}  // namespace
+}  // namespace glint::test
