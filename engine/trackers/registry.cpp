@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "glint/engine/trackers/h_pmht.hpp"
 #include "glint/engine/trackers/smc_phd.hpp"
 
 namespace glint {
@@ -25,6 +26,8 @@ constexpr std::array kTrackers{
                                 "particle PHD filter on raw frames, with persistent identities"),
     entry<SmcPhd, SmcPhdImprovedConfig>(
         "smc-phd-improved", "smc-phd with adaptive process noise and resampling on likelihood"),
+    entry<HPmht, HPmhtConfig>(
+        "h-pmht", "histogram PMHT: expectation maximisation over all pixels of a few frames"),
 };
 
 }  // namespace
