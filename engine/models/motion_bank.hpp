@@ -23,4 +23,8 @@ struct MotionBank {
 /// ConfigError for another name.
 MotionBank motion_bank(const std::string& name, double noise, double turn_rate);
 
+/// The bank for steps into the past of targets whose velocities have been turned round: turns go
+/// the other way, and the Markov chain runs backwards from its stationary distribution.
+MotionBank reversed(const MotionBank& bank);
+
 }  // namespace glint

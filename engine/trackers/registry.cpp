@@ -5,6 +5,7 @@
 #include <array>
 
 #include "glint/engine/trackers/h_pmht.hpp"
+#include "glint/engine/trackers/mm_phd.hpp"
 #include "glint/engine/trackers/smc_phd.hpp"
 
 namespace glint {
@@ -24,6 +25,7 @@ constexpr TrackerEntry entry(std::string_view name, std::string_view summary,
 constexpr std::array kTrackers{
     entry<SmcPhd, SmcPhdConfig>("smc-phd",
                                 "particle PHD filter on raw frames, with persistent identities"),
+    entry<MmPhd, MmPhdConfig>("mm-phd", "PHD detector, a particle filter a target, backward pass"),
     entry<SmcPhd, SmcPhdImprovedConfig>(
         "smc-phd-improved", "smc-phd with adaptive process noise and resampling on likelihood"),
     entry<HPmht, HPmhtConfig>(

@@ -22,6 +22,7 @@ enum class Purpose : std::uint32_t {
   trial = 10,
   birth_jitter = 11,
   kmeans = 12,
+  spawn = 13,
 };
 
 /// Address of a stream of draws; the item (particle, pixel, ...) and the draw index complete it.

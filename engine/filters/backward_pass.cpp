@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/filters/backward_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glint {
+namespace {
+
+// Draws of the past must not be those of the present.
+constexpr std::uint64_t kBackward = std::uint64_t{0xB5} << 56;
+
+}  // namespace
+
+BackwardPass::BackwardPass(const KnownTargetsConfig& config, const MotionBank& bank, int frames,
+                           const Device& device, std::uint64_t seed)
+    : config_(config),
+      modes_(bank.modes.size()),
+      clouds_(reversed(bank), config.particles, device, seed ^ kBackward),
+      // The detection lies confirm_hits - 1 frames before the confirmation.
+      capacity_(frames > 0 ? static_cast<std::size_t>(frames + config.confirm_hits) : 0) {}
+
+void BackwardPass::remember(const Frame& z, const StepTime& at,
+                            std::span<const KnownTarget> targets) {
+  if (capacity_ == 0) return;
+  Past past;
+  if (past_.size() == capacity_) {  // its list of targets serves again
+    past = std::move(past_.front());
+    past_.pop_front();
+  }
+  past.z = z, past.at = at;
+  past.targets.clear();
+  for (const KnownTarget& target : targets) {
+    past.targets.push_back({target.id, target.estimate.x, target.estimate.y});
+  }
+  past_.push_back(std::move(past));
+}
+
+bool BackwardPass::meets_another(const Past& past, const Peak& estimate, std::uint32_t id) const {
+  return std::ranges::any_of(past.targets, [&](const Position& other) {
+    return other.id != id &&
+           std::hypot(other.x - estimate.x, other.y - estimate.y) < config_.separation;
+  });
+}
+
+void BackwardPass::trace(const KnownTargets& targets, std::size_t t, TrackLog& log) {
+  const KnownTarget& target = targets.targets()[t];
+  clouds_.clear();
+  clouds_.add(targets.starts(), t);
+  clouds_.reverse_velocities();
+  std::int64_t frame = target.detected;
+  double existence = 1;
+  int misses = 0;
+  std::vector<TrackPoint> missed;  // stand only if the target is seen again before them
+  for (auto past = past_.rbegin(); past != past_.rend(); ++past) {
+    if (past->at.frame >= target.detected) continue;
+    clouds_.predict(past->at.frame, static_cast<double>(frame - past->at.frame));
+    frame = past->at.frame;
+    const TargetUpdate& update = clouds_.update(past->z, frame)[0];
+    const double odds = config_.survival * existence * update.mean_ratio;
+    existence = odds / (1 + odds);
+    misses = existence >= config_.existence ? 0 : misses + 1;
+    if (misses >= config_.halt_misses || update.mean_ratio <= 0) return;
+    if (meets_another(*past, update.estimate, target.id)) return;
+    TrackPoint point = point_of(update.estimate, modes_, past->at);
+    point.vx = -point.vx, point.vy = -point.vy;
+    point.track_id = target.id, point.status = TrackStatus::confirmed;
+    point.existence = existence;
+    missed.push_back(point);
+    if (misses == 0) {
+      for (const TrackPoint& p : missed) log.revise(p);
+      missed.clear();
+    }
+    clouds_.resample(frame);
+  }
+}
+
+}  // namespace glint

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "glint/engine/filters/known_targets.hpp"
+
+namespace glint {
+
+/// Follows a newly confirmed target from its cloud at detection back to where it came from.
+/// P-PHD (25)-(27), with F^-1 and the Markov chain reversed.
+class BackwardPass {
+ public:
+  /// Goes at most `frames` back; 0 = never.
+  BackwardPass(const KnownTargetsConfig& config, const MotionBank& bank, int frames,
+               const Device& device, std::uint64_t seed);
+  void set_appearance(const TargetAppearance& appearance) { clouds_.set_appearance(appearance); }
+
+  /// Takes a frame and where the targets were in it, after the targets have been followed.
+  void remember(const Frame& z, const StepTime& at, std::span<const KnownTarget> targets);
+  /// Adds the points before detection of target `t` to the revised record. Ends where the target is
+  /// missed as often as halts a track, or comes upon another track.
+  void trace(const KnownTargets& targets, std::size_t t, TrackLog& log);
+
+ private:
+  struct Position {
+    std::uint32_t id;
+    double x, y;
+  };
+  struct Past {
+    Frame z;
+    StepTime at;
+    std::vector<Position> targets;
+  };
+  bool meets_another(const Past& past, const Peak& estimate, std::uint32_t id) const;
+
+  KnownTargetsConfig config_;
+  std::size_t modes_;
+  TargetClouds clouds_;
+  std::size_t capacity_;
+  std::deque<Past> past_;
+};
+
+}  // namespace glint

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/filters/known_targets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glint {
+namespace {
+
+double distance(const Peak& a, const Peak& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+}  // namespace
+
+TrackPoint point_of(const Peak& estimate, std::size_t modes, const StepTime& at) {
+  TrackPoint point;
+  point.frame = at.frame, point.time = at.time;
+  point.x = estimate.x, point.y = estimate.y;
+  point.vx = estimate.vx * at.velocity_scale, point.vy = estimate.vy * at.velocity_scale;
+  point.intensity = estimate.intensity;
+  point.var_x = estimate.var_x, point.cov_xy = estimate.cov_xy, point.var_y = estimate.var_y;
+  for (std::size_t m = 0; m < modes; ++m) {
+    point.mode_probability.push_back(estimate.mode_mass[m]);  // P-PHD (35)
+  }
+  return point;
+}
+
+KnownTargets::KnownTargets(const KnownTargetsConfig& config, const MotionBank& bank,
+                           const Device& device, std::uint64_t seed)
+    : config_(config),
+      modes_(bank.modes.size()),
+      clouds_(bank, config.particles, device, seed),
+      starts_(bank, config.particles, device, seed) {}
+
+void KnownTargets::set_appearance(const TargetAppearance& appearance) {
+  clouds_.set_appearance(appearance);
+  starts_.set_appearance(appearance);
+}
+
+void KnownTargets::follow(const Frame& z, const StepTime& at, TrackLog& log) {
+  confirmed_now_.clear();
+  clouds_.predict(at.frame, at.step);
+  const std::span<const TargetUpdate> updates = clouds_.update(z, at.frame);
+  for (std::size_t t = 0; t < targets_.size(); ++t) judge(targets_[t], updates[t], at.frame);
+  end_duplicates();
+  for (KnownTarget& target : targets_) report(target, at, log);
+  clouds_.resample(at.frame);
+  forget_ended();
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    if (!targets_[t].confirmed && targets_[t].hits >= config_.confirm_hits) {
+      targets_[t].confirmed = true;
+      confirmed_now_.push_back(t);
+      log.confirm(targets_[t].id, targets_[t].detected);
+    }
+  }
+}
+
+void KnownTargets::judge(KnownTarget& target, const TargetUpdate& update,
+                         std::int64_t frame) const {
+  bool hit = false;
+  if (config_.rule == LifeRule::existence) {
+    const double odds = config_.survival * target.existence * update.mean_ratio;
+    target.existence = odds / (1 + odds);
+    hit = target.existence >= config_.existence;
+  } else {
+    target.existence = std::min(1.0, target.existence * update.mean_ratio);
+    hit = target.existence >= 1;
+    target.ended = target.existence <= config_.miss;
+  }
+  if (update.mean_ratio > 0) target.estimate = update.estimate;
+  if (hit) {
+    ++target.hits;
+    target.misses = 0;
+    return;
+  }
+  if (target.misses++ == 0) target.first_missed = frame;
+  const int patience = target.confirmed ? config_.halt_misses : 1;
+  if (config_.rule == LifeRule::existence) target.ended = target.misses >= patience;
+  target.ended = target.ended || update.mean_ratio <= 0;  // out of view
+}
+
+void KnownTargets::end_duplicates() {
+  for (std::size_t t = 1; t < targets_.size(); ++t) {
+    for (std::size_t older = 0; older < t && !targets_[t].ended; ++older) {
+      const bool close =
+          distance(targets_[t].estimate, targets_[older].estimate) < config_.separation;
+      if (!close || targets_[older].ended) continue;
+      // One that is being missed has no claim to what another sees.
+      const bool yield = targets_[older].misses > targets_[t].misses && targets_[t].confirmed;
+      (yield ? targets_[older] : targets_[t]).ended = true;
+    }
+  }
+}
+
+void KnownTargets::report(KnownTarget& target, const StepTime& at, TrackLog& log) {
+  TrackPoint point = point_of(target.estimate, modes_, at);
+  point.track_id = target.id;
+  point.existence = target.existence;
+  const bool confirmed = target.confirmed || target.hits >= config_.confirm_hits;
+  point.status = confirmed ? TrackStatus::confirmed : TrackStatus::tentative;
+  if (target.ended) {
+    if (target.misses > 0) log.drop(target.id, target.first_missed);
+    if (!target.confirmed) return;
+    point.status = TrackStatus::halted;
+  }
+  log.report(point);
+}
+
+void KnownTargets::forget_ended() {
+  for (std::size_t t = targets_.size(); t-- > 0;) {
+    if (!targets_[t].ended) continue;
+    clouds_.remove(t);
+    starts_.remove(t);
+    targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+}
+
+bool KnownTargets::detect(const Peak& peak, const Particles& particles,
+                          std::span<const std::uint32_t> members, const StepTime& at,
+                          TrackLog& log) {
+  const bool known = std::ranges::any_of(targets_, [&](const KnownTarget& target) {
+    return distance(target.estimate, peak) < config_.separation;
+  });
+  if (known) return false;
+  KnownTarget target;
+  target.id = next_id_++;
+  target.existence = config_.rule == LifeRule::existence ? std::min(1.0, peak.mass) : 1;
+  target.detected = at.frame;
+  target.estimate = peak;
+  clouds_.add(particles, members, at.frame);
+  starts_.add(clouds_, clouds_.size() - 1);
+  report(target, at, log);
+  targets_.push_back(target);
+  if (config_.confirm_hits <= 1) {
+    targets_.back().confirmed = true;
+    confirmed_now_.push_back(targets_.size() - 1);
+  }
+  return true;
+}
+
+void KnownTargets::boxes(int half_width, std::vector<Box>& boxes) const {
+  boxes.clear();
+  for (const KnownTarget& target : targets_) {
+    const int x = static_cast<int>(std::floor(target.estimate.x + 0.5));
+    const int y = static_cast<int>(std::floor(target.estimate.y + 0.5));
+    boxes.push_back({x - half_width, y - half_width, x + half_width + 1, y + half_width + 1});
+  }
+}
+
+}  // namespace glint

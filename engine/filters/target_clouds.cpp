@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/filters/target_clouds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "glint/engine/filters/moved_particles.hpp"
+#include "glint/kernels/cell_weights/bound.hpp"
+#include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
+#include "glint/kernels/propagate/propagate.hpp"
+
+namespace glint {
+namespace {
+
+std::uint64_t index_of(std::int64_t frame) { return static_cast<std::uint64_t>(frame); }
+
+}  // namespace
+
+TargetClouds::TargetClouds(const MotionBank& bank, int count, const Device& device,
+                           std::uint64_t seed)
+    : bank_(bank),
+      count_(static_cast<std::size_t>(count)),
+      device_(device),
+      seed_(seed),
+      appearance_(AppearanceConfig{}) {}
+
+void TargetClouds::set_appearance(const TargetAppearance& appearance) {
+  // Intensities keep their peak.
+  const auto rescale = static_cast<float>(appearance.spread().intensity_of_snr(0) /
+                                          appearance_.spread().intensity_of_snr(0));
+  for (float& intensity : particles_.intensity) intensity *= rescale;
+  appearance_ = appearance;
+}
+
+void TargetClouds::add(const Particles& from, std::span<const std::uint32_t> members,
+                       std::int64_t frame) {
+  const std::size_t first = particles_.size();
+  particles_.resize(first + count_);
+  drawn_from_.resize(members.size());
+  std::ranges::transform(members, drawn_from_.begin(), [&](auto i) { return from.weight[i]; });
+  ancestors_.resize(count_);
+  draws_.resize(std::max<std::size_t>(draws_.size(), 1));
+  device_.run<Resample>({.weights = drawn_from_,
+                         .ancestors = ancestors_,
+                         .key = cloud_key(first / count_, frame, Purpose::spawn),
+                         .workspace = draws_.data()});
+  const std::array moves = moved_particles(from, 0, particles_, first);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const std::uint32_t source = members[ancestors_[i]];
+    for (const MovedArray& array : moves) {
+      static_cast<std::uint32_t*>(array.destination)[i] =
+          static_cast<const std::uint32_t*>(array.source)[source];
+    }
+  }
+}
+
+void TargetClouds::add(const TargetClouds& other, std::size_t t) {
+  const std::size_t first = particles_.size();
+  particles_.resize(first + count_);
+  for (const MovedArray& array : moved_particles(other.particles_, t * count_, particles_, first)) {
+    std::copy_n(static_cast<const std::uint32_t*>(array.source), count_,
+                static_cast<std::uint32_t*>(array.destination));
+  }
+}
+
+void TargetClouds::remove(std::size_t t) {
+  particles_.for_each_array([&](auto& a) {
+    const auto first = a.begin() + static_cast<std::ptrdiff_t>(t * count_);
+    std::copy(first + static_cast<std::ptrdiff_t>(count_), a.end(), first);
+  });
+  particles_.resize(particles_.size() - count_);
+}
+
+RandomKey TargetClouds::cloud_key(std::size_t t, std::int64_t frame, Purpose purpose) const {
+  return random_key(seed_ ^ (static_cast<std::uint64_t>(t) << 32), index_of(frame), purpose);
+}
+
+void TargetClouds::reverse_velocities() {
+  for (auto* velocity : {&particles_.vx, &particles_.vy}) {
+    for (float& v : *velocity) v = -v;
+  }
+}
+
+void TargetClouds::predict(std::int64_t frame, double step) {
+  auto& p = particles_;
+  device_.run<Propagate>({.x = p.x,
+                          .y = p.y,
+                          .vx = p.vx,
+                          .vy = p.vy,
+                          .intensity = p.intensity,
+                          .ax = p.ax,
+                          .ay = p.ay,
+                          .mode = p.mode,
+                          .modes = bank_.modes,
+                          .switching = bank_.switching,
+                          .step = static_cast<float>(step),
+                          .intensity_noise = appearance_.intensity_noise(),
+                          .intensity_low = appearance_.intensity_low(),
+                          .intensity_high = appearance_.intensity_high(),
+                          .seed = seed_,
+                          .frame = static_cast<std::uint32_t>(frame)});
+}
+
+std::span<const TargetUpdate> TargetClouds::update(const Frame& z, std::int64_t frame) {
+  auto& p = particles_;
+  log_ratio_.resize(p.size());
+  device_.run<ParticleLikelihood>({.frame = z.view(),
+                                   .spread = appearance_.spread(),
+                                   .x = p.x,
+                                   .y = p.y,
+                                   .intensity = p.intensity,
+                                   .log_ratio = log_ratio_,
+                                   .jitter = appearance_.jitter(),
+                                   .key = random_key(seed_, index_of(frame), Purpose::jitter)});
+  if (indices_.size() < p.size()) {
+    indices_.resize(p.size());
+    std::iota(indices_.begin(), indices_.end(), 0u);
+  }
+  updates_.resize(size());
+  device_.workers().for_tiles(size(), [&](std::size_t t) { weigh(t); });
+  return updates_;
+}
+
+void TargetClouds::weigh(std::size_t t) {
+  const std::size_t first = t * count_;
+  double sum = 0;
+  for (std::size_t i = first; i < first + count_; ++i) {
+    const float r = log_ratio_[i];
+    particles_.weight[i] = r >= -kMaxLogRatio ? math::exp(bounded_log_ratio(r)) : 0.0f;
+    sum += particles_.weight[i];
+  }
+  updates_[t] = {sum / static_cast<double>(count_), {}};
+  if (sum <= 0) return;
+  updates_[t].estimate =
+      describe_cluster(particles_, std::span(indices_).subspan(first, count_), particles_.weight);
+  updates_[t].estimate.mass = 1;
+}
+
+void TargetClouds::resample(std::int64_t frame) {
+  moved_.resize(particles_.size());
+  ancestors_.resize(particles_.size());
+  draws_.resize(std::max(draws_.size(), size()));
+  device_.workers().for_tiles(size(), [&](std::size_t t) { redraw(t, frame); });
+  std::swap(particles_, moved_);
+}
+
+void TargetClouds::redraw(std::size_t t, std::int64_t frame) {
+  const std::size_t first = t * count_;
+  const std::array moves = moved_particles(particles_, first, moved_, first);
+  device_.run<Resample>({.weights = std::span(particles_.weight).subspan(first, count_),
+                         .ancestors = std::span(ancestors_).subspan(first, count_),
+                         .key = cloud_key(t, frame, Purpose::resample),
+                         .moved = moves,
+                         .workspace = &draws_[t]});
+}
+
+}  // namespace glint

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/mm_phd.hpp"
+
+namespace glint {
+
+MmPhd::MmPhd(const MmPhdConfig& config, const Device& device, std::uint64_t seed)
+    : config_(config),
+      bank_(config.bank()),
+      appearance_(config),
+      search_(config, device, seed),
+      targets_(config.known_targets(), bank_, device, seed ^ kTargetSeed),
+      backward_(config.known_targets(), bank_, config.backward_frames, device, seed) {}
+
+void MmPhd::step(const Scan& scan, TrackLog& log) {
+  if (scan.whitened.view().empty()) return;
+  if (last_frame_ < 0) log.set_mode_names(bank_.names);
+  if (appearance_.look_at(scan)) {
+    search_.set_appearance(appearance_);
+    targets_.set_appearance(appearance_);
+    backward_.set_appearance(appearance_);
+  }
+  StepTime at{scan.frame, scan.time};
+  if (last_frame_ >= 0) {
+    at.step = static_cast<double>(scan.frame - last_frame_);
+    const double seconds = scan.time - last_time_;
+    if (seconds > 0) at.velocity_scale = at.step / seconds;
+  }
+  targets_.follow(scan.whitened, at, log);
+  for (const std::size_t t : targets_.confirmed_now()) backward_.trace(targets_, t, log);
+  detect(scan.whitened, at, log);
+  backward_.remember(scan.whitened, at, targets_.targets());
+  last_frame_ = scan.frame, last_time_ = scan.time;
+}
+
+// Tracked targets are masked in the detector only. P-PHD (36)
+void MmPhd::detect(const Frame& z, const StepTime& at, TrackLog& log) {
+  const int half_width = appearance_.spread().half_width;
+  targets_.boxes(config_.mask > 0 ? static_cast<int>(config_.mask) : half_width, boxes_);
+  mask_.set(boxes_, z.width(), z.height());
+  search_.predict(z, at.frame, at.step, mask_);
+  search_.update(z, at.frame);
+  const double radius = config_.cluster_radius > 0 ? config_.cluster_radius : half_width + 0.5;
+  const auto peaks = peaks_.find(search_.particles(), search_.runs(), z.width(), z.height(),
+                                 half_width, {config_.existence, radius});
+  for (const Peak& peak : peaks) {
+    const auto members = peaks_.members(peak);
+    targets_.detect(peak, search_.particles(), members, at, log);
+    search_.remove(members);
+  }
+  for (const std::size_t t : targets_.confirmed_now()) {
+    if (targets_.targets()[t].detected == at.frame) backward_.trace(targets_, t, log);
+  }
+  search_.resample(at.frame);
+}
+
+}  // namespace glint

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+#include "glint/engine/filters/backward_pass.hpp"
+#include "glint/engine/filters/known_targets.hpp"
+#include "glint/engine/filters/search_cloud.hpp"
+#include "glint/engine/trackers/tracker.hpp"
+
+namespace glint {
+
+/// Settings of `mm-phd`.
+struct MmPhdConfig : SearchConfig {
+  MmPhdConfig() {
+    snr_low = 8, snr_high = 18;
+    intensity_walk = 0.5;
+    motion = "cv+ct";
+  }
+  double existence = 0.5;     ///< least mass of a peak, least existence of a hit
+  double cluster_radius = 0;  ///< [px]; 0 = auto, half the window
+  int target_particles = 1500;
+  double mask = 5;  ///< half side [px]; 0 = auto, half the window
+  int confirm_hits = 5, halt_misses = 3;
+  double separation = 6;  ///< [px]
+  int backward_frames = 12;
+  KnownTargetsConfig known_targets() const;
+};
+void describe(FieldList& list, MmPhdConfig& config);
+
+/// MM-PHD track-before-detect, P-PHD section 4: a PHD detector over all motion models finds new
+/// targets, each one then has a particle filter of its own, and when a track is confirmed a
+/// backward pass finds where it came from.
+class MmPhd : public Tracker {
+ public:
+  /// Throws ConfigError for settings that do not fit together.
+  MmPhd(const MmPhdConfig& config, const Device& device, std::uint64_t seed);
+  Feed feed() const override { return Feed::frames; }
+  void step(const Scan& scan, TrackLog& log) override;
+  std::vector<std::string> notes() const override { return {appearance_.note()}; }
+
+ private:
+  void detect(const Frame& z, const StepTime& at, TrackLog& log);
+
+  /// Draws of the targets must not be those of the search.
+  static constexpr std::uint64_t kTargetSeed = std::uint64_t{0x7A} << 56;
+
+  MmPhdConfig config_;
+  MotionBank bank_;
+  TargetAppearance appearance_;
+  SearchCloud search_;
+  PeakFinder peaks_;
+  KnownTargets targets_;
+  BackwardPass backward_;
+  std::vector<Box> boxes_;
+  PixelMask mask_;
+  std::int64_t last_frame_ = -1;
+  double last_time_ = 0;
+};
+
+}  // namespace glint
