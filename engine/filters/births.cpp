@@ -231,8 +231,9 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
       // The share of this cell that living targets already explain is no birth: 1 / (clutter + B).
       const double explained =
           scan.clutter + window_sum(scan.previous, width, height, spread_.half_width, cx, cy);
-      const bool possible =
-          std::abs(p.vx[to]) <= config_.speed_max && std::abs(p.vy[to]) <= config_.speed_max;
+      const bool possible =  // all cells in reach may be masked
+          next.score > 0 && std::abs(p.vx[to]) <= config_.speed_max &&
+          std::abs(p.vy[to]) <= config_.speed_max;
       const double weight = config_.mass / config_.count * mean / before_.score[cells_[i]] *
                             next.total / (area * next.score) / explained;
       p.weight[to] = possible ? static_cast<float>(weight) : 0.0f;

@@ -35,7 +35,8 @@ void MmPhd::step(const Scan& scan, TrackLog& log) {
 // Tracked targets are masked in the detector only. P-PHD (36)
 void MmPhd::detect(const Frame& z, const StepTime& at, TrackLog& log) {
   const int half_width = appearance_.spread().half_width;
-  targets_.boxes(config_.mask > 0 ? static_cast<int>(config_.mask) : half_width, boxes_);
+  targets_.boxes(
+      config_.mask_half_width > 0 ? static_cast<int>(config_.mask_half_width) : half_width, boxes_);
   mask_.set(boxes_, z.width(), z.height());
   search_.predict(z, at.frame, at.step, mask_);
   search_.update(z, at.frame);

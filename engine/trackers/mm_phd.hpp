@@ -20,7 +20,7 @@ struct MmPhdConfig : SearchConfig {
   double existence = 0.5;     ///< least mass of a peak, least existence of a hit
   double cluster_radius = 0;  ///< [px]; 0 = auto, half the window
   int target_particles = 1500;
-  double mask = 5;  ///< half side [px]; 0 = auto, half the window
+  double mask_half_width = 5;  ///< half side [px]; 0 = auto, half the window
   int confirm_hits = 5, halt_misses = 3;
   double separation = 6;  ///< [px]
   int backward_frames = 12;

@@ -9,7 +9,7 @@ void describe(FieldList& f, MmPhdConfig& c) {
   f.automatic("cluster_radius", c.cluster_radius, 0, 20, "px",
               "half side of a target's particle box; auto is half the window of the point spread");
   f("target_particles", c.target_particles, 10, 1000000, "", "particles that follow a target");
-  f.automatic("mask", c.mask, 0, 1000, "px",
+  f.automatic("mask_half_width", c.mask_half_width, 0, 1000, "px",
               "the detector is blind this far around tracked targets; auto is half the window");
   f("confirm_hits", c.confirm_hits, 1, 1000, "frames",
     "a track is confirmed when seen this often, the detection included");
