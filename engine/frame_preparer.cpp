@@ -24,7 +24,7 @@ Polarity polarity_of(const std::string& name) {
 /// of 0 would make a target of every later change. ALGORITHMS.md part 3 (3 levels of 8 bits).
 double automatic_floor(const RawPixels& raw, bool reciprocal, FrameView grey) {
   if (reciprocal) return 0.05;
-  if (std::holds_alternative<const std::uint8_t*>(raw.data)) return 3;
+  if (std::holds_alternative<const std::uint8_t*>(raw.data)) return 4;
   if (std::holds_alternative<const std::uint16_t*>(raw.data)) return 0.5;
   float most = 0;
   for (int y = 0; y < grey.height; ++y) {

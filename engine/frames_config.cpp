@@ -26,7 +26,7 @@ void describe(FieldList& list, FramesConfig& c) {
   list("spatial_window", c.spatial_window, 5, 4 * SpatialMedian::kMaxSpacing + 1, "px",
        "width of the spatial median");
   list("sigma_floor", c.sigma_floor, 0, 1e6, "grey levels",
-       "least noise sigma; 0 = automatic: 3 for 8-bit frames, 0.5 for 16-bit ones, 1e-6 of the "
+       "least noise sigma; 0 = automatic: 4 for 8-bit frames, 0.5 for 16-bit ones, 1e-6 of the "
        "largest magnitude for float ones, 0.05 after reciprocal");
   list("structure", c.structure, "let the background's gradient raise sigma");
   list("ring", c.ring, "let the residual around a pixel raise sigma");
