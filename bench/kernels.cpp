@@ -11,21 +11,22 @@ std::vector<Result> bench_kernels(const Options& options) {
     if (options.done) options.done(results.back());
   };
   using FrameSuite = Suite (*)(FrameSize);
-  for (const FrameSuite make : {pixel_likelihood_float, pixel_likelihood_u16, pixel_likelihood_hits,
-                                particle_likelihood_clouds, particle_likelihood_spread,
-                                cell_weights_clouds, find_points_noise, prepare_frames}) {
+  for (const FrameSuite make :
+       {pixel_likelihood_float, pixel_likelihood_u16, pixel_likelihood_hits,
+        particle_likelihood_clouds, particle_likelihood_spread, cell_weights_clouds,
+        find_points_noise, prepare_frames, cell_integrals_many}) {
     Suite suite = make(options.size);
     if (options.size != kReferenceSize) suite.forget_targets();
     run(suite);
   }
   using ParticleSuite = Suite (*)();
-  for (const ParticleSuite make :
-       {propagate_constant_velocity, resample_ancestors, resample_moves, kernel_trials}) {
+  for (const ParticleSuite make : {propagate_constant_velocity, resample_ancestors, resample_moves,
+                                   cell_integrals_one, cell_integrals_hundred, kernel_trials}) {
     run(make());
   }
   if (options.quick) return results;
-  for (const ParticleSuite make :
-       {pixel_likelihood_growth, particle_likelihood_growth, propagate_growth, resample_growth}) {
+  for (const ParticleSuite make : {pixel_likelihood_growth, particle_likelihood_growth,
+                                   propagate_growth, resample_growth, cell_integrals_growth}) {
     run(make());
   }
   return results;

@@ -5,6 +5,7 @@
 
 #include "glint/kernels/add_noise/add_noise.hpp"
 #include "glint/kernels/birth_scores/birth_scores.hpp"
+#include "glint/kernels/cell_integrals/cell_integrals.hpp"
 #include "glint/kernels/cell_weights/cell_weights.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
@@ -23,6 +24,7 @@ std::span<const KernelEntry> all_kernels() {
       KernelEntry{Propagate::name, &Propagate::trials},
       KernelEntry{Resample::name, &Resample::trials},
       KernelEntry{CellWeights::name, &CellWeights::trials},
+      KernelEntry{CellIntegrals::name, &CellIntegrals::trials},
       KernelEntry{FindPoints::name, &FindPoints::trials},
       KernelEntry{BirthScores::name, &BirthScores::trials},
       KernelEntry{AddNoise::name, &AddNoise::trials},

@@ -20,6 +20,10 @@ Suite resample_growth();
 Suite cell_weights_clouds(FrameSize size);
 Suite find_points_noise(FrameSize size);
 Suite prepare_frames(FrameSize size);
+Suite cell_integrals_one();
+Suite cell_integrals_hundred();
+Suite cell_integrals_many(FrameSize size);
+Suite cell_integrals_growth();
 /// Every kernel's parity trials, so that a new kernel shows here before it has a suite.
 Suite kernel_trials();
 

@@ -10,8 +10,8 @@
 
 namespace glint {
 
-/// How pixels become the intensities z_l >= 0 of cells, and which cells have none to show. A NaN
-/// counts as dark.
+/// How pixels become the intensities z_l >= 0 of cells, and which cells have none to show. A pixel
+/// that is not finite counts as dark.
 struct CellRule {
   float threshold = 0;    ///< pixels that are not above it are dark
   bool subtract = false;  ///< z = pixel - threshold, else z = pixel
@@ -39,7 +39,7 @@ struct SumCells {
     CellTotal* total = nullptr;  ///< needed; written
   };
   static void serial(const Args& args);
-  static void tbb(const Args& args, Workers&) { serial(args); }
+  static void tbb(const Args& args, Workers& workers);
 };
 
 /// A Gaussian target as a histogram sees it.
@@ -70,7 +70,14 @@ struct MixtureSums {
 
 /// Memory that cell_integrals keeps from call to call, so that a warm call allocates nothing.
 struct IntegralsWorkspace {
-  std::vector<double> mixture;
+  IntegralsWorkspace();
+  ~IntegralsWorkspace();
+  IntegralsWorkspace(IntegralsWorkspace&&) noexcept;
+  IntegralsWorkspace& operator=(IntegralsWorkspace&&) noexcept;
+
+  struct Fast;
+  std::vector<double> mixture;  ///< of the reference
+  std::unique_ptr<Fast> fast;
 };
 
 /// Expectation step of H-PMHT for one frame: cell probabilities of Gaussian targets in closed form,
@@ -84,6 +91,8 @@ struct IntegralsWorkspace {
 /// or `sums` and `targets` are of unlike length.
 struct CellIntegrals {
   static constexpr std::string_view name = "cell_integrals";
+  static constexpr Tolerance tolerance{1e-6, 2e-5};       ///< of all but the mean
+  static constexpr Tolerance mean_tolerance{1e-4, 1e-6};  ///< [px]
 
   struct Args {
     FrameView frame = {};
@@ -99,7 +108,8 @@ struct CellIntegrals {
     IntegralsWorkspace* workspace = nullptr;  ///< the call brings its own if not given
   };
   static void serial(const Args& args);
-  static void tbb(const Args& args, Workers&) { serial(args); }
+  static void tbb(const Args& args, Workers& workers);
+  static std::vector<std::unique_ptr<Trial>> trials();
 };
 
 }  // namespace glint

@@ -11,14 +11,18 @@ namespace {
 using cell_integrals::PartialSums;
 using Args = CellIntegrals::Args;
 
+bool is_dark(const CellRule& rule, float pixel) {
+  return !(pixel > rule.threshold && std::isfinite(pixel));
+}
+
 bool is_missing(const CellRule& rule, float pixel, int x, int y) {
-  if (rule.truncate_dark && !(pixel > rule.threshold)) return true;
+  if (rule.truncate_dark && is_dark(rule, pixel)) return true;
   return std::any_of(rule.missing.begin(), rule.missing.end(),
                      [&](const Box& box) { return box.contains(x, y); });
 }
 
 double intensity(const CellRule& rule, float pixel) {
-  if (!(pixel > rule.threshold)) return 0;
+  if (is_dark(rule, pixel)) return 0;
   return rule.subtract ? static_cast<double>(pixel) - rule.threshold : pixel;
 }
 
@@ -55,7 +59,8 @@ struct TargetCells {
 };
 
 TargetCells cells_of_target(const HistogramTarget& t, const Args& args) {
-  TargetCells cells{cell_integrals::window_of(t, args), {}, {}};
+  TargetCells cells{
+      cell_integrals::window_of(t, args.reach, args.frame.width, args.frame.height), {}, {}};
   for (int x = cells.box.x0; x < cells.box.x1; ++x) {
     cells.columns.push_back(axis_cell(x - 0.5 - t.x, x + 0.5 - t.x, t.sigma_x));
   }
@@ -147,7 +152,11 @@ void CellIntegrals::serial(const Args& args) {
   add_up(args, cells, p);
   std::vector<PartialSums> partial;
   for (const TargetCells& c : cells) partial.push_back(sums_of(args, c, p));
-  cell_integrals::finish(args, partial, args.log_likelihood ? log_ratios(args, cells, p) : 0);
+  const cell_integrals::Totals totals = cell_integrals::totals_of(args, partial);
+  for (std::size_t k = 0; k < partial.size(); ++k) {
+    args.sums[k] = cell_integrals::normalised(args.targets[k], partial[k], totals.missing_weight);
+  }
+  cell_integrals::fill_mixture(args, totals, args.log_likelihood ? log_ratios(args, cells, p) : 0);
 }
 
 }  // namespace glint

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <cmath>
-
 #include "glint/kernels/cell_integrals/cell_integrals.hpp"
+#include "glint/kernels/core/inline.hpp"
 
 namespace glint::cell_integrals {
 
@@ -14,21 +13,21 @@ inline double cells_of(const CellIntegrals::Args& args) {
   return args.cells > 0 ? args.cells : static_cast<double>(args.frame.width) * args.frame.height;
 }
 
-/// Cells [begin, end) of one axis of `length` pixels that a target's window covers.
-struct Span {
+/// Cells [begin, end) of one axis.
+struct Stretch {
   int begin = 0, end = 0;
 };
-inline Span window_span(double mean, double sigma, double reach, int length) {
-  const double centre = std::floor(mean + 0.5), half = std::ceil(reach * sigma);
+/// What a target's window covers of an axis of `length` pixels; empty for a mean that is NaN.
+GLINT_INLINE Stretch stretch_of(double mean, double sigma, double reach, int length) {
+  const double centre = __builtin_floor(mean + 0.5), half = __builtin_ceil(reach * sigma);
   const double begin = centre - half, end = centre + half + 1;
   if (!(begin < length && end > 0)) return {};
   return {begin > 0 ? static_cast<int>(begin) : 0, end < length ? static_cast<int>(end) : length};
 }
-
-/// Window of a target, clipped to the frame; empty if nothing is left of it.
-inline Box window_of(const HistogramTarget& t, const CellIntegrals::Args& args) {
-  const Span x = window_span(t.x, t.sigma_x, args.reach, args.frame.width);
-  const Span y = window_span(t.y, t.sigma_y, args.reach, args.frame.height);
+/// Window of a target, clipped to the frame; all zeros if nothing is left of it.
+GLINT_INLINE Box window_of(const HistogramTarget& t, double reach, int width, int height) {
+  const Stretch x = stretch_of(t.x, t.sigma_x, reach, width);
+  const Stretch y = stretch_of(t.y, t.sigma_y, reach, height);
   if (x.begin >= x.end || y.begin >= y.end) return {};
   return {x.begin, y.begin, x.end, y.end};
 }
@@ -41,8 +40,17 @@ struct PartialSums {
   double probability = 0;  ///< sum of P_kl over all cells of the window
 };
 
-/// Adds what (9) expects of cells without data, and normalises. `partial` one a target.
-void finish(const CellIntegrals::Args& args, std::span<const PartialSums> partial,
-            double log_ratio_sum);
+/// What holds for all targets of a frame once all partial sums are there.
+struct Totals {
+  double shown = 0, missing = 0;  ///< probability of the cells with and without data
+  double missing_weight = 0;      ///< expected measurements a unit of probability without data
+};
+Totals totals_of(const CellIntegrals::Args& args, std::span<const PartialSums> partial);
+
+/// Adds what P-HPMHT (9) expects of cells without data, and normalises.
+TargetSums normalised(const HistogramTarget& t, const PartialSums& p, double missing_weight);
+
+/// Fills args.mixture, if given, when args.sums are final.
+void fill_mixture(const CellIntegrals::Args& args, const Totals& totals, double log_ratio_sum);
 
 }  // namespace glint::cell_integrals
