@@ -7,6 +7,9 @@
 namespace glint {
 namespace {
 
+// Draws of the targets must not be those of the search.
+constexpr std::uint64_t kTargets = std::uint64_t{0x7A} << 56;
+
 double distance(const Peak& a, const Peak& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 }  // namespace
@@ -28,8 +31,8 @@ KnownTargets::KnownTargets(const KnownTargetsConfig& config, const MotionBank& b
                            const Device& device, std::uint64_t seed)
     : config_(config),
       modes_(bank.modes.size()),
-      clouds_(bank, config.particles, device, seed),
-      starts_(bank, config.particles, device, seed) {}
+      clouds_(bank, config.particles, device, seed ^ kTargets),
+      starts_(bank, config.particles, device, seed ^ kTargets) {}
 
 void KnownTargets::set_appearance(const TargetAppearance& appearance) {
   clouds_.set_appearance(appearance);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "glint/engine/config.hpp"
+#include "glint/engine/filters/step_clock.hpp"
 #include "glint/engine/filters/target_clouds.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/engine/tracks.hpp"
@@ -39,14 +40,6 @@ struct KnownTarget {
   std::int64_t detected = 0;      ///< frame k0
   std::int64_t first_missed = 0;  ///< of the present row of misses
   Peak estimate;                  ///< velocity a frame
-};
-
-/// When a step happens.
-struct StepTime {
-  std::int64_t frame = 0;
-  double time = 0;            ///< [s]
-  double step = 1;            ///< frames since the last one
-  double velocity_scale = 1;  ///< px a frame to px/s
 };
 
 /// A track point of `estimate` at that time.

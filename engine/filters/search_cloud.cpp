@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "glint/engine/filters/moved_particles.hpp"
 #include "glint/kernels/cell_weights/bound.hpp"
@@ -37,11 +38,13 @@ MotionBank MotionConfig::bank() const {
   return motion_bank(motion, process_noise, turn_rate * std::numbers::pi / 180);
 }
 
-SearchCloud::SearchCloud(const SearchConfig& config, const Device& device, std::uint64_t seed)
+SearchCloud::SearchCloud(const SearchConfig& config, const Device& device, std::uint64_t seed,
+                         CloudWeight weight)
     : config_(config),
       bank_(config.bank()),
       device_(device),
       seed_(seed),
+      weight_(weight),
       appearance_(config),
       births_(births_of(config), bank_, device, seed) {}
 
@@ -124,7 +127,21 @@ void SearchCloud::update(const Frame& z, std::int64_t frame) {
                             .workspace = &cells_});
   std::swap(p.weight, updated_);
   expected_ = total_mass(cells_.runs);
-  if (config_.resample_on == "likelihood") weigh_by_likelihood();
+  const bool odds = weight_ == CloudWeight::odds;
+  if (odds || config_.resample_on == "likelihood") weigh_by_likelihood();
+  if (odds) turn_to_odds();
+}
+
+void SearchCloud::turn_to_odds() {
+  constexpr double kMost = 1e8;  // nothing is surer than that
+  const double sum = std::accumulate(cells_.cell_sum.begin(), cells_.cell_sum.end(), 0.0);
+  const auto scale = static_cast<float>(sum > kMost ? kMost / sum : 1);
+  for (float& w : likelihood_) w *= scale;
+  for (std::size_t r = 0; r < cells_.runs.size(); ++r) {
+    cells_.runs.mass[r] = scale * cells_.cell_sum[r];
+  }
+  particles_.weight = likelihood_;
+  expected_ = std::min(sum, kMost);
 }
 
 void SearchCloud::weigh_by_likelihood() {
@@ -147,7 +164,7 @@ void SearchCloud::remove(std::span<const std::uint32_t> members) {
 
 void SearchCloud::resample(std::int64_t frame) {
   auto& p = particles_;
-  const double targets = std::max(1.0, std::ceil(expected_));
+  const double targets = weight_ == CloudWeight::odds ? 1 : std::max(1.0, std::ceil(expected_));
   const double wanted =
       std::min({targets * config_.particles_per_target, static_cast<double>(config_.particles_max),
                 static_cast<double>(p.size())});

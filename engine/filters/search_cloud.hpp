@@ -44,12 +44,18 @@ struct SearchConfig : AppearanceConfig, MotionConfig {
 };
 void describe(FieldList& list, SearchConfig& config);
 
-/// A cloud of particles whose weights sum to the expected number of targets: the PHD filter of
-/// P-PHD section 3.1, over all motion models of section 4. A scan is predict(), update(), then
-/// resample().
+/// What the weights of a cloud sum to after the update.
+enum class CloudWeight {
+  expected_targets,  ///< pixels are shared out among the particles: P-PHD (14)
+  odds               ///< w l alone: posterior odds of one target against none
+};
+
+/// A cloud of particles that looks for targets: the PHD filter of P-PHD section 3.1, over all
+/// motion models of section 4. A scan is predict(), update(), then resample().
 class SearchCloud {
  public:
-  SearchCloud(const SearchConfig& config, const Device& device, std::uint64_t seed);
+  SearchCloud(const SearchConfig& config, const Device& device, std::uint64_t seed,
+              CloudWeight weight = CloudWeight::expected_targets);
   /// Sets what targets look like; a change of shape empties the cloud.
   void set_appearance(const TargetAppearance& appearance);
 
@@ -67,7 +73,7 @@ class SearchCloud {
   /// Particles of equal weight, their sum kept. P-PHD (20); (24) as corrected if so configured.
   void resample(std::int64_t frame);
 
-  /// Expected number of targets after the update. P-PHD (19)
+  /// Sum of the weights after the update: expected number of targets, P-PHD (19), or odds.
   double expected() const { return expected_; }
   Particles& particles() { return particles_; }
   const Particles& particles() const { return particles_; }
@@ -77,11 +83,13 @@ class SearchCloud {
  private:
   void give_birth(const Frame& z, std::int64_t frame, double step, const PixelMask& mask);
   void weigh_by_likelihood();
+  void turn_to_odds();
 
   SearchConfig config_;
   MotionBank bank_;
   Device device_;
   std::uint64_t seed_;
+  CloudWeight weight_;
   TargetAppearance appearance_;
   Births births_;
   Particles particles_, moved_;

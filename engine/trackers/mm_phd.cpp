@@ -8,28 +8,22 @@ MmPhd::MmPhd(const MmPhdConfig& config, const Device& device, std::uint64_t seed
       bank_(config.bank()),
       appearance_(config),
       search_(config, device, seed),
-      targets_(config.known_targets(), bank_, device, seed ^ kTargetSeed),
+      targets_(config.known_targets(), bank_, device, seed),
       backward_(config.known_targets(), bank_, config.backward_frames, device, seed) {}
 
 void MmPhd::step(const Scan& scan, TrackLog& log) {
   if (scan.whitened.view().empty()) return;
-  if (last_frame_ < 0) log.set_mode_names(bank_.names);
+  if (!clock_.started()) log.set_mode_names(bank_.names);
   if (appearance_.look_at(scan)) {
     search_.set_appearance(appearance_);
     targets_.set_appearance(appearance_);
     backward_.set_appearance(appearance_);
   }
-  StepTime at{scan.frame, scan.time};
-  if (last_frame_ >= 0) {
-    at.step = static_cast<double>(scan.frame - last_frame_);
-    const double seconds = scan.time - last_time_;
-    if (seconds > 0) at.velocity_scale = at.step / seconds;
-  }
+  const StepTime at = clock_.tick(scan);
   targets_.follow(scan.whitened, at, log);
   for (const std::size_t t : targets_.confirmed_now()) backward_.trace(targets_, t, log);
   detect(scan.whitened, at, log);
   backward_.remember(scan.whitened, at, targets_.targets());
-  last_frame_ = scan.frame, last_time_ = scan.time;
 }
 
 // Tracked targets are masked in the detector only. P-PHD (36)

@@ -42,9 +42,6 @@ class MmPhd : public Tracker {
  private:
   void detect(const Frame& z, const StepTime& at, TrackLog& log);
 
-  /// Draws of the targets must not be those of the search.
-  static constexpr std::uint64_t kTargetSeed = std::uint64_t{0x7A} << 56;
-
   MmPhdConfig config_;
   MotionBank bank_;
   TargetAppearance appearance_;
@@ -54,8 +51,7 @@ class MmPhd : public Tracker {
   BackwardPass backward_;
   std::vector<Box> boxes_;
   PixelMask mask_;
-  std::int64_t last_frame_ = -1;
-  double last_time_ = 0;
+  StepClock clock_;
 };
 
 }  // namespace glint

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "glint/engine/trackers/h_pmht.hpp"
+#include "glint/engine/trackers/mm_pf.hpp"
 #include "glint/engine/trackers/mm_phd.hpp"
 #include "glint/engine/trackers/smc_phd.hpp"
 
@@ -26,6 +27,8 @@ constexpr std::array kTrackers{
     entry<SmcPhd, SmcPhdConfig>("smc-phd",
                                 "particle PHD filter on raw frames, with persistent identities"),
     entry<MmPhd, MmPhdConfig>("mm-phd", "PHD detector, a particle filter a target, backward pass"),
+    entry<MmPf, MmPfConfig>(
+        "mm-pf", "particle filter a target, declared by a likelihood ratio test on a search cloud"),
     entry<SmcPhd, SmcPhdImprovedConfig>(
         "smc-phd-improved", "smc-phd with adaptive process noise and resampling on likelihood"),
     entry<HPmht, HPmhtConfig>(

@@ -18,19 +18,16 @@ SmcPhd::SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t s
 
 void SmcPhd::step(const Scan& scan, TrackLog& log) {
   if (scan.whitened.view().empty()) return;
-  if (last_frame_ < 0) log.set_mode_names(bank_.names);
+  if (!clock_.started()) log.set_mode_names(bank_.names);
   if (appearance_.look_at(scan)) cloud_.set_appearance(appearance_);
-  const double step = last_frame_ < 0 ? 1 : static_cast<double>(scan.frame - last_frame_);
-  cloud_.predict(scan.whitened, scan.frame, step, nothing_, noise_.scales(cloud_.particles()));
+  const StepTime at = clock_.tick(scan);
+  cloud_.predict(scan.whitened, scan.frame, at.step, nothing_, noise_.scales(cloud_.particles()));
   cloud_.update(scan.whitened, scan.frame);
-  report(scan, step, log);
+  report(scan, at, log);
   cloud_.resample(scan.frame);
-  last_frame_ = scan.frame, last_time_ = scan.time;
 }
 
-void SmcPhd::report(const Scan& scan, double step, TrackLog& log) {
-  const double seconds = last_frame_ < 0 ? 1 : scan.time - last_time_;
-  const double velocity_scale = seconds > 0 ? step / seconds : 1;
+void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
   const int half_width = appearance_.spread().half_width;
   Particles& particles = cloud_.particles();
   std::span<const Peak> found;
@@ -46,7 +43,7 @@ void SmcPhd::report(const Scan& scan, double step, TrackLog& log) {
                         half_width, {config_.existence, radius});
     members = peaks_.members();
   }
-  identities_.assign(found, members, particles, scan.frame, scan.time, step, velocity_scale,
+  identities_.assign(found, members, particles, scan.frame, scan.time, at.step, at.velocity_scale,
                      bank_.modes.size(), log);
   noise_.learn(found, members, particles);
 }

@@ -9,6 +9,7 @@
 #include "glint/engine/filters/identities.hpp"
 #include "glint/engine/filters/peaks.hpp"
 #include "glint/engine/filters/search_cloud.hpp"
+#include "glint/engine/filters/step_clock.hpp"
 #include "glint/engine/trackers/tracker.hpp"
 #include "glint/kernels/core/device.hpp"
 
@@ -51,7 +52,7 @@ class SmcPhd : public Tracker {
   const Particles& particles() const { return cloud_.particles(); }
 
  private:
-  void report(const Scan& scan, double step, TrackLog& log);
+  void report(const Scan& scan, const StepTime& at, TrackLog& log);
 
   SmcPhdConfig config_;
   std::uint64_t seed_;
@@ -63,8 +64,7 @@ class SmcPhd : public Tracker {
   std::vector<std::uint32_t> kmeans_members_;
   Identities identities_;
   AdaptiveNoise noise_;
-  std::int64_t last_frame_ = -1;
-  double last_time_ = 0;
+  StepClock clock_;
 };
 
 }  // namespace glint

@@ -279,14 +279,14 @@ TEST(FramePreparer, DarkTargetsComeOutPositive) {
   }
 }
 
-TEST(FramePreparer, EightBitColourFramesHaveTheFloorOfThreeLevels) {
+TEST(FramePreparer, EightBitColourFramesHaveTheFloorOfFourLevels) {
   const std::vector<std::uint8_t> pixels(20 * 20 * 3, 90);
   FramePreparer preparer({}, Device::tbb(1));
   const RawPixels colour{pixels.data(), 20, 20, 3, 60};
   preparer.prepare(colour, 0, 0);
-  EXPECT_NEAR(preparer.prepare(colour, 1, 1).noise_sigma, 3, 1e-6);
+  EXPECT_NEAR(preparer.prepare(colour, 1, 1).noise_sigma, 4, 1e-6);
   ASSERT_EQ(preparer.notes().size(), 2u);
-  EXPECT_NE(preparer.notes()[0].find("noise sigma 3 "), std::string::npos);
+  EXPECT_NE(preparer.notes()[0].find("noise sigma 4 "), std::string::npos);
 }
 
 }  // namespace

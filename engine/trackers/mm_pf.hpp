@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+#include "glint/engine/filters/known_targets.hpp"
+#include "glint/engine/filters/search_cloud.hpp"
+#include "glint/engine/trackers/tracker.hpp"
+
+namespace glint {
+
+/// Settings of `mm-pf`.
+struct MmPfConfig : SearchConfig {
+  MmPfConfig() {
+    snr_low = 8, snr_high = 18;
+    intensity_walk = 0.5;
+    motion = "cv+ct";
+  }
+  double false_probability = 1e-5;  ///< P_F of the detection test
+  double miss_probability = 0.05;   ///< P_M
+  double cluster_radius = 0;        ///< [px]; 0 = auto, half the window
+  int target_particles = 1500;
+  double mask_half_width = 5;  ///< [px]; 0 = auto, half the window
+  double separation = 6;       ///< [px]
+  KnownTargetsConfig known_targets() const;
+};
+void describe(FieldList& list, MmPfConfig& config);
+
+/// Heuristic multi-target MM-PF track-before-detect, what P-PHD section 5.3 compares with: a search
+/// cloud holds the posterior odds of one target more, Boers and Driessen's likelihood ratio test
+/// declares it, its cluster becomes a particle filter of its own, and the search starts again
+/// without it.
+class MmPf : public Tracker {
+ public:
+  /// Throws ConfigError for settings that do not fit together.
+  MmPf(const MmPfConfig& config, const Device& device, std::uint64_t seed);
+  Feed feed() const override { return Feed::frames; }
+  void step(const Scan& scan, TrackLog& log) override;
+  std::vector<std::string> notes() const override { return {appearance_.note()}; }
+
+ private:
+  void search(const Frame& z, const StepTime& at, TrackLog& log);
+
+  MmPfConfig config_;
+  MotionBank bank_;
+  TargetAppearance appearance_;
+  SearchCloud search_;
+  PeakFinder peaks_;
+  KnownTargets targets_;
+  std::vector<Box> boxes_;
+  PixelMask mask_;
+  StepClock clock_;
+};
+
+}  // namespace glint
