@@ -23,17 +23,14 @@ BackwardPass::BackwardPass(const KnownTargetsConfig& config, const MotionBank& b
 void BackwardPass::remember(const Frame& z, const StepTime& at,
                             std::span<const KnownTarget> targets) {
   if (capacity_ == 0) return;
-  Past past;
-  if (past_.size() == capacity_) {  // its list of targets serves again
-    past = std::move(past_.front());
-    past_.pop_front();
-  }
+  if (past_.size() < capacity_) past_.emplace_back();
+  Past& past = past_[next_];
+  next_ = (next_ + 1) % capacity_;
   past.z = z, past.at = at;
   past.targets.clear();
   for (const KnownTarget& target : targets) {
     past.targets.push_back({target.id, target.estimate.x, target.estimate.y});
   }
-  past_.push_back(std::move(past));
 }
 
 bool BackwardPass::meets_another(const Past& past, const Peak& estimate, std::uint32_t id) const {
@@ -52,7 +49,8 @@ void BackwardPass::trace(const KnownTargets& targets, std::size_t t, TrackLog& l
   double existence = 1;
   int misses = 0;
   std::vector<TrackPoint> missed;  // stand only if the target is seen again before them
-  for (auto past = past_.rbegin(); past != past_.rend(); ++past) {
+  for (std::size_t back = 1; back <= past_.size(); ++back) {
+    const Past* past = &past_[(next_ + past_.size() - back) % past_.size()];
     if (past->at.frame >= target.detected) continue;
     clouds_.predict(past->at.frame, static_cast<double>(frame - past->at.frame));
     frame = past->at.frame;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 #include "glint/engine/filters/known_targets.hpp"
@@ -39,7 +38,8 @@ class BackwardPass {
   std::size_t modes_;
   TargetClouds clouds_;
   std::size_t capacity_;
-  std::deque<Past> past_;
+  std::vector<Past> past_;  ///< a ring
+  std::size_t next_ = 0;    ///< where the next frame goes
 };
 
 }  // namespace glint

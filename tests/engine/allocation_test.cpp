@@ -61,8 +61,8 @@ class Film : public Source {
   std::size_t at_ = 0;
 };
 
-std::unique_ptr<Tracker> standard_tracker(const Device& device) {
-  const TrackerEntry& entry = find_tracker("smc-phd");
+std::unique_ptr<Tracker> standard_tracker(const Device& device, const char* name = "smc-phd") {
+  const TrackerEntry& entry = find_tracker(name);
   return entry.make(entry.config(), device, 1);
 }
 
@@ -83,11 +83,15 @@ TEST(Allocation, NoneInAWarmPreparer) {
   EXPECT_EQ(allocations - before, 0u);
 }
 
-TEST(Allocation, NoneInAWarmTracker) {
+class WarmTracker : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Allocation, WarmTracker,
+                         testing::Values("smc-phd", "smc-phd-improved", "mm-phd", "mm-pf"));
+
+TEST_P(WarmTracker, AllocatesNothing) {
   Film film;
   const Device device = Device::tbb(2);
   FramePreparer preparer(FramesConfig{}, device);
-  const auto tracker = standard_tracker(device);
+  const auto tracker = standard_tracker(device, GetParam());
   TrackLog log;
   log.reserve(kPoints);
   std::size_t before = 0;
