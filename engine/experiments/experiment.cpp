@@ -15,6 +15,10 @@ namespace {
 constexpr std::array kExperiments{
     ExperimentEntry{"phd-5.1", "one dim target at 12, 10 and 8 dB: P-PHD section 5.1", 100,
                     run_phd_5_1},
+    ExperimentEntry{"phd-5.2", "three targets that manoeuvre at 10 dB: P-PHD section 5.2", 100,
+                    run_phd_5_2},
+    ExperimentEntry{"phd-5.3", "track-before-detect systems side by side: P-PHD section 5.3", 100,
+                    run_phd_5_3},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "glint/kernels/core/workers.hpp"
@@ -24,6 +25,20 @@ auto run_jobs(std::size_t jobs, Workers& workers,
     progress(++done, static_cast<int>(jobs));
   });
   return results;
+}
+
+/// f(which, run) for every case and run: result[which][run]. Runs are outermost, so that threads
+/// share slow and fast cases evenly.
+template <class F>
+auto run_cases(std::size_t cases, std::size_t runs, Workers& workers,
+               const std::function<void(int done, int total)>& progress, const F& f) {
+  auto jobs = run_jobs(cases * runs, workers, progress,
+                       [&](std::size_t job) { return f(job % cases, job / cases); });
+  std::vector<decltype(jobs)> by_case(cases);
+  for (std::size_t job = 0; job < jobs.size(); ++job) {
+    by_case[job % cases].push_back(std::move(jobs[job]));
+  }
+  return by_case;
 }
 
 }  // namespace glint

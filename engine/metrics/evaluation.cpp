@@ -96,10 +96,12 @@ void score_tracks(const Tally& tally, std::int64_t frames, Evaluation& result) {
     const auto best =
         std::max_element(track.near.begin(), track.near.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
+    auto& counts_for = result.counts_for[id];
     if (best == track.near.end() || 2 * best->second < track.points) {
       ++result.false_tracks;
       continue;
     }
+    counts_for = best->first;
     TruthScore& truth = result.truths.at(best->first);
     truth.detected = true;
     if (truth.last == frames - 1) continue;

@@ -46,6 +46,7 @@ struct Evaluation {
   Gospa mean_gospa;
   double mean_cardinality_error = 0;  ///< estimates - truths, over frames
   std::map<std::int64_t, TruthScore> truths;
+  std::map<std::int64_t, std::optional<std::int64_t>> counts_for;  ///< by track: a truth, or none
   int tracks = 0, false_tracks = 0;
   int detected_truths = 0;
   double track_detection_probability = kUndefined;  ///< detected truths / truths

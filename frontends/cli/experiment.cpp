@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -36,13 +37,16 @@ std::string band_text(const std::optional<Band>& band) {
 
 void print_table(const ExperimentResult& result) {
   fmt::print("{}, {} runs, seed {}\n\n", result.name, result.runs, result.seed);
-  fmt::print("{:<30}{:<26}{:>9} {:>9}{:>9}   {:<14}{}\n", "condition", "metric", "ours", "+- sd",
-             "paper", "band", "inside");
+  std::size_t width = 28;
+  for (const ExperimentRow& row : result.rows) width = std::max(width, row.name.size());
+  fmt::print("{:<{}}  {:<26}{:>9} {:>9}{:>9}   {:<14}{}\n", "condition", width, "metric", "ours",
+             "+- sd", "paper", "band", "inside");
   std::string last;
   for (const ExperimentRow& row : result.rows) {
     const char* verdict = !row.band ? "" : *row.inside() ? "yes" : "NO";
-    fmt::print("{:<30}{:<26}{:>9.3f} {:>9.3f}{:>9}   {:<14}{}\n", row.name == last ? "" : row.name,
-               row.metric, row.ours, row.spread, end_of(row.paper), band_text(row.band), verdict);
+    fmt::print("{:<{}}  {:<26}{:>9.3f} {:>9.3f}{:>9}   {:<14}{}\n",
+               row.name == last ? "" : row.name, width, row.metric, row.ours, row.spread,
+               end_of(row.paper), band_text(row.band), verdict);
     last = row.name;
   }
 }

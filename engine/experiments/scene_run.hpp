@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "glint/engine/experiments/tracker_setup.hpp"
+#include "glint/engine/metrics/evaluation.hpp"
+#include "glint/engine/mode_probability.hpp"
+#include "glint/engine/scenario/scenario.hpp"
+
+namespace glint {
+
+/// What was said of one target, by frame.
+struct TargetRecord {
+  std::vector<double> error;           ///< [px]; NaN where nothing was said in reach of it
+  std::vector<ModeProbability> modes;  ///< empty there
+  double halted = kUndefined;          ///< frame at which the last track that counts for it ended
+};
+
+struct SceneScore {
+  Evaluation scores;
+  std::vector<TargetRecord> targets;  ///< in the order of the scene's
+};
+
+/// A tracker's run over a scene, as it was reported at the time and as it was revised later.
+struct SceneRun {
+  SceneScore online, revised;
+  std::vector<std::string> mode_names;
+  std::vector<int> targets;      ///< that are there, by frame
+  std::vector<double> observed;  ///< by frame, if asked for
+};
+
+struct SceneRunOptions {
+  bool include_tentative = false;               ///< score tentative points too
+  double (*observe)(const Tracker&) = nullptr;  ///< asked after every step
+};
+
+/// The frames as rendered are the whitened ones: a scene's noise is known, and its unit is sigma.
+/// Scored at a cut-off of 5 px and order 2, P-PHD's accuracy of initiation. One thread. Throws
+/// ConfigError for a setup that does not exist.
+SceneRun run_scene(const Scene& scene, const TrackerSetup& setup, std::uint64_t seed,
+                   const SceneRunOptions& options = {});
+
+}  // namespace glint
