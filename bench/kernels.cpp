@@ -14,7 +14,7 @@ std::vector<Result> bench_kernels(const Options& options) {
   for (const FrameSuite make :
        {pixel_likelihood_float, pixel_likelihood_u16, pixel_likelihood_hits,
         particle_likelihood_clouds, particle_likelihood_spread, cell_weights_clouds,
-        find_points_noise, prepare_frames, cell_integrals_many}) {
+        find_points_noise, dp_stage_noise, prepare_frames, cell_integrals_many}) {
     Suite suite = make(options.size);
     if (options.size != kReferenceSize) suite.forget_targets();
     run(suite);

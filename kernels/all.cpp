@@ -7,6 +7,7 @@
 #include "glint/kernels/birth_scores/birth_scores.hpp"
 #include "glint/kernels/cell_integrals/cell_integrals.hpp"
 #include "glint/kernels/cell_weights/cell_weights.hpp"
+#include "glint/kernels/dp_stage/dp_stage.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
@@ -27,6 +28,7 @@ std::span<const KernelEntry> all_kernels() {
       KernelEntry{CellIntegrals::name, &CellIntegrals::trials},
       KernelEntry{FindPoints::name, &FindPoints::trials},
       KernelEntry{BirthScores::name, &BirthScores::trials},
+      KernelEntry{DpStage::name, &DpStage::trials},
       KernelEntry{AddNoise::name, &AddNoise::trials},
   };
   return kAll;

@@ -19,6 +19,7 @@ Suite resample_moves();
 Suite resample_growth();
 Suite cell_weights_clouds(FrameSize size);
 Suite find_points_noise(FrameSize size);
+Suite dp_stage_noise(FrameSize size);
 Suite prepare_frames(FrameSize size);
 Suite cell_integrals_one();
 Suite cell_integrals_hundred();
