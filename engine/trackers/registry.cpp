@@ -5,6 +5,7 @@
 #include <array>
 
 #include "glint/engine/trackers/h_pmht.hpp"
+#include "glint/engine/trackers/imm_pda_ai.hpp"
 #include "glint/engine/trackers/mm_pf.hpp"
 #include "glint/engine/trackers/mm_phd.hpp"
 #include "glint/engine/trackers/smc_phd.hpp"
@@ -33,6 +34,9 @@ constexpr std::array kTrackers{
         "smc-phd-improved", "smc-phd with adaptive process noise and resampling on likelihood"),
     entry<HPmht, HPmhtConfig>(
         "h-pmht", "histogram PMHT: expectation maximisation over all pixels of a few frames"),
+    entry<ImmPdaAi, ImmPdaAiConfig>(
+        "imm-pda-ai", "points by multiple models and probabilistic association, with amplitudes",
+        Feed::both),
 };
 
 }  // namespace
