@@ -7,21 +7,25 @@
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/run_config.hpp"
+#include "glint/frontends/config/profiles.hpp"
 #include "glint/frontends/config/toml.hpp"
 
 namespace glint::cli {
 
 void add_config(CLI::App& app) {
   auto tracker = std::make_shared<std::string>();
+  auto profile = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("config", "A tracker's whole configuration, as TOML");
   command->add_option("TRACKER", *tracker, "name, see glint info")->required();
+  command->add_option("--profile", *profile, profile_help());
   command->footer(
       "Example:\n"
       "  glint config smc-phd > my.toml; glint track clip.mp4 --config my.toml");
-  command->callback([tracker] {
+  command->callback([tracker, profile] {
     const TrackerEntry& entry = find_tracker(*tracker);
     const std::string name(entry.name);
     auto all = all_sections();
+    if (!profile->empty()) apply_profile(*profile, all);
     apply_set("run.tracker=" + name, all);
     std::vector sections{section_named(all, "run"), section_named(all, "frames")};
     if (entry.feed != Feed::frames) sections.push_back(section_named(all, "points"));

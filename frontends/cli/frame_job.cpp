@@ -7,6 +7,7 @@
 
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/config/profiles.hpp"
 #include "glint/frontends/config/settings.hpp"
 #include "glint/frontends/files/noisy_source.hpp"
 #include "glint/frontends/files/open_source.hpp"
@@ -102,6 +103,7 @@ FramePreparer make_preparer(const FrameJob& job) {
 }  // namespace
 
 void add_run_options(CLI::App& command, FrameOptions& options) {
+  command.add_option("--profile", options.profile, profile_help());
   command.add_option("--config", options.config,
                      "TOML file, or tracks in any format: the settings of the run that wrote them");
   command.add_option("--set", options.sets, "key=value, e.g. frames.polarity=dark; repeatable")
@@ -129,6 +131,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
 
 FrameJob settle(const FrameOptions& options, const std::vector<std::string>& more) {
   std::vector<ConfigSection> all = all_sections();
+  if (!options.profile.empty()) apply_profile(options.profile, all);
   if (!options.config.empty()) read_config(options.config, all);
   for (const auto& [key, text] : options.run) apply_set("run." + key + '=' + text, all);
   for (const auto& set : options.sets) {

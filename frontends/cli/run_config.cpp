@@ -11,6 +11,7 @@
 #include "glint/engine/points.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/config/profiles.hpp"
 #include "glint/frontends/config/toml.hpp"
 #include "glint/frontends/files/track_file.hpp"
 #include "glint/frontends/usage_error.hpp"
@@ -80,6 +81,14 @@ void read_config(const std::string& path, std::span<ConfigSection> sections) {
   if (!first.starts_with("##")) return read_toml(path, sections);
   file.seekg(0);
   parse_toml(config_of_track_file(file), path, sections);
+}
+
+std::string profile_help() {
+  std::string help = "settings that go together, before --config and --set";
+  for (const Profile& profile : all_profiles()) {
+    help += "; " + std::string(profile.name) + ": " + std::string(profile.summary);
+  }
+  return help;
 }
 
 std::string bare_toml(std::span<const ConfigSection> sections) {

@@ -32,6 +32,9 @@ ConfigSection section_named(std::span<const ConfigSection> sections, const std::
 /// configuration of the run that wrote it. Throws as read_toml() does.
 void read_config(const std::string& path, std::span<ConfigSection> sections);
 
+/// What --profile takes: the names, and what each is for.
+std::string profile_help();
+
 /// Settings as TOML without help texts.
 std::string bare_toml(std::span<const ConfigSection> sections);
 

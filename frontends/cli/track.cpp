@@ -143,6 +143,7 @@ void add_track(CLI::App& app) {
       "  glint track clip.mp4 --tracker smc-phd --out tracks.csv --overlay overlay.mp4\n"
       "  glint track frames/f_%04d.png --fps 50 --tracker smc-phd --set frames.polarity=dark\n"
       "  glint track clip.mp4 --tracker smc-phd --add-noise 53 --seed 2 --out noisy.csv\n"
+      "  glint track clip.mp4 --tracker mm-phd --profile L --out tracks.csv\n"
       "  glint track clip.mp4 --config tracks.csv      repeats the run that wrote it\n"
       "All settings: glint config TRACKER");
   command->callback([options] { track(*options); });
