@@ -9,6 +9,7 @@
 
 #include "glint/engine/background.hpp"
 #include "glint/engine/frame_pool.hpp"
+#include "glint/kernels/core/cells.hpp"
 
 namespace glint {
 namespace {
@@ -33,18 +34,23 @@ double automatic_floor(const RawPixels& raw, bool reciprocal, FrameView grey) {
   return most > 0 ? 1e-6 * most : 1e-6;
 }
 
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
 void check(const RawPixels& raw) {
   if (raw.width <= 0 || raw.height <= 0) {
     throw std::invalid_argument("a frame must have at least one pixel");
+  }
+  if (raw.width > kMaxSide || raw.height > kMaxSide) {
+    throw std::invalid_argument("a frame may have at most " + std::to_string(kMaxSide) +
+                                " px a side, got " + size_text(raw.width, raw.height) +
+                                ": crop it, or run its parts one by one");
   }
   if (raw.channels != 1 && raw.channels != 3 && raw.channels != 4) {
     throw std::invalid_argument("a frame must have 1, 3 or 4 channels, got " +
                                 std::to_string(raw.channels));
   }
-}
-
-std::string size_text(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
 }
 
 }  // namespace

@@ -50,9 +50,9 @@ class FramePreparer {
 
   /// The next frame of the stream. Fills frame-related members of a Scan: `raw` is the grey frame,
   /// reciprocal if so configured, its NaN pixels replaced by the background (0 where there is
-  /// none); `whitened` is z, 0 where masked (NaN, infinite or ignored pixels); `noise_sigma`.
-  /// Throws std::invalid_argument for an empty frame, other than 1, 3 or 4 channels, or a size
-  /// other than the first frame's.
+  /// none); `whitened` is z, 0 where masked (pixels that are no numbers, beyond ToGrey::kLargest,
+  /// or ignored); `noise_sigma`. Throws std::invalid_argument for an empty frame, one of more than
+  /// kMaxSide px a side, other than 1, 3 or 4 channels, or a size other than the first frame's.
   Scan prepare(const RawPixels& raw, std::int64_t frame, double time);
   /// What was estimated, for the summary ("noise sigma 4.2 grey levels").
   std::vector<std::string> notes() const;

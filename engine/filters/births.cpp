@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "glint/kernels/birth_scores/birth_scores.hpp"
+#include "glint/kernels/core/cells.hpp"
 #include "glint/kernels/core/tiles.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
@@ -33,7 +34,7 @@ void cells_above(FrameView z, double threshold, std::vector<std::uint32_t>& cell
   cells.clear();
   for (int y = 0; y < z.height; ++y) {
     for (int x = 0; x < z.width; ++x) {
-      if (z(x, y) >= threshold) cells.push_back(static_cast<std::uint32_t>(y * z.width + x));
+      if (z(x, y) >= threshold) cells.push_back(cell_at(x, y, z.width));
     }
   }
 }
@@ -43,8 +44,8 @@ double window_sum(const CellWorkspace& cells, int width, int height, int half_wi
   const auto& cell = cells.runs.cell;
   double sum = 0;
   for (int j = std::max(0, y - half_width); j <= std::min(height - 1, y + half_width); ++j) {
-    const auto first = static_cast<std::uint32_t>(j * width + std::max(0, x - half_width));
-    const auto last = static_cast<std::uint32_t>(j * width + std::min(width - 1, x + half_width));
+    const auto first = cell_at(std::max(0, x - half_width), j, width);
+    const auto last = cell_at(std::min(width - 1, x + half_width), j, width);
     auto r =
         static_cast<std::size_t>(std::lower_bound(cell.begin(), cell.end(), first) - cell.begin());
     for (; r < cell.size() && cell[r] <= last; ++r) sum += cells.cell_sum[r];
@@ -148,8 +149,8 @@ std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_
   const FrameView z = scan.z.view();
   cells_above(z, config_.threshold, cells_);
   std::erase_if(cells_, [&](std::uint32_t cell) {
-    const auto width = static_cast<std::uint32_t>(z.width);
-    return scan.mask.covers(static_cast<float>(cell % width), static_cast<float>(cell / width));
+    const Pixel pixel = pixel_at(cell, z.width);
+    return scan.mask.covers(static_cast<float>(pixel.x), static_cast<float>(pixel.y));
   });
   if (cells_.empty()) return 0;
   const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
@@ -159,11 +160,11 @@ std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_
     const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 0);
     const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 1);
     const auto pick = static_cast<std::size_t>(uniform(a.w[0]) * static_cast<float>(cells_.size()));
-    const auto cell = static_cast<int>(cells_[std::min(pick, cells_.size() - 1)]);
+    const Pixel cell = pixel_at(cells_[std::min(pick, cells_.size() - 1)], z.width);
     const std::size_t to = at + i;
     // Around the cell: the target may peak in a neighbour of the cell that noise lifted.
-    p.x[to] = static_cast<float>(cell % z.width) + 3 * uniform(a.w[1]) - 1.5f;
-    p.y[to] = static_cast<float>(cell / z.width) + 3 * uniform(a.w[2]) - 1.5f;
+    p.x[to] = static_cast<float>(cell.x) + 3 * uniform(a.w[1]) - 1.5f;
+    p.y[to] = static_cast<float>(cell.y) + 3 * uniform(a.w[2]) - 1.5f;
     p.vx[to] = speed * (2 * uniform(b.w[0]) - 1);
     p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
     p.intensity[to] = draw_intensity(b.w[2]);
@@ -185,10 +186,10 @@ std::size_t Births::draw_matched(const BirthScan& scan, Particles& p, std::size_
   for (std::size_t i = 0; i < count; ++i) {
     const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
     const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 2);
-    const auto cell = static_cast<int>(cells_[i]);
+    const Pixel cell = pixel_at(cells_[i], width);
     const std::size_t to = at + i;
-    p.x[to] = static_cast<float>(cell % width) + uniform(a.w[0]) - 0.5f;
-    p.y[to] = static_cast<float>(cell / width) + uniform(a.w[1]) - 0.5f;
+    p.x[to] = static_cast<float>(cell.x) + uniform(a.w[0]) - 0.5f;
+    p.y[to] = static_cast<float>(cell.y) + uniform(a.w[1]) - 0.5f;
     p.vx[to] = speed * (2 * uniform(b.w[0]) - 1);
     p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
     p.intensity[to] = draw_intensity(b.w[2]);
@@ -216,8 +217,7 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
     for (std::size_t i = tiles.begin(tile); i < tiles.end(tile); ++i) {
       const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
       const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 2);
-      const auto cell = static_cast<int>(cells_[i]);
-      const int cx = cell % width, cy = cell / width;
+      const auto [cx, cy] = pixel_at(cells_[i], width);
       const auto next = pick_in_reach(now_.score, width, height, cx, cy, reach, uniform(a.w[2]));
       const std::size_t to = at + i;
       x_before_[i] = static_cast<float>(cx) + uniform(a.w[0]) - 0.5f;

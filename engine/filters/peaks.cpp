@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/kernels/core/cells.hpp"
+
 namespace glint {
 
 Peak describe_cluster(const Particles& p, std::span<const std::uint32_t> members,
@@ -34,8 +36,8 @@ void PeakFinder::for_runs_in(const CellRuns& runs, double x0, double y0, double 
   const int top = std::max(0, static_cast<int>(std::floor(y0 + 0.5)));
   const int bottom = std::min(height_ - 1, static_cast<int>(std::floor(y1 + 0.5)));
   for (int y = top; y <= bottom && left <= right; ++y) {
-    const auto first = static_cast<std::uint32_t>(y * width_ + left);
-    const auto last = static_cast<std::uint32_t>(y * width_ + right);
+    const auto first = cell_at(left, y, width_);
+    const auto last = cell_at(right, y, width_);
     auto it = std::lower_bound(runs.cell.begin(), runs.cell.end(), first);
     for (; it != runs.cell.end() && *it <= last; ++it) {
       f(static_cast<std::uint32_t>(it - runs.cell.begin()));
@@ -44,8 +46,7 @@ void PeakFinder::for_runs_in(const CellRuns& runs, double x0, double y0, double 
 }
 
 double PeakFinder::box_mass(const CellRuns& runs, std::uint32_t run, int half_width) const {
-  const auto cell = static_cast<int>(runs.cell[run]);
-  const double x = cell % width_, y = cell / width_;
+  const auto [x, y] = pixel_at(runs.cell[run], width_);
   double mass = 0;
   for_runs_in(runs, x - half_width, y - half_width, x + half_width, y + half_width,
               [&](std::uint32_t r) { mass += mass_[r]; });
@@ -65,9 +66,9 @@ void PeakFinder::collect(const Particles& p, const CellRuns& runs, double x, dou
 
 bool PeakFinder::take(const Particles& p, const CellRuns& runs, std::uint32_t run,
                       const PeakConfig& config) {
-  const auto cell = static_cast<int>(runs.cell[run]);
+  const Pixel cell = pixel_at(runs.cell[run], width_);
   Peak peak;
-  peak.x = cell % width_, peak.y = cell / width_;
+  peak.x = cell.x, peak.y = cell.y;
   const std::size_t first = members_.size();
   for (int shift = 0; shift <= config.shifts; ++shift) {
     members_.resize(first);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "glint/kernels/core/cells.hpp"
+
 namespace glint {
 namespace cell_weights {
 namespace {
@@ -39,7 +41,7 @@ void check(const CellWeights::Args& args) {
   require(args.y.size() == n && args.predicted.size() == n && args.log_ratio.size() == n &&
               args.updated.size() == n,
           "particle arrays must have one length");
-  require(args.width >= 0 && args.height >= 0 && args.width < 65536 && args.height < 65536,
+  require(args.width >= 0 && args.height >= 0 && args.width <= kMaxSide && args.height <= kMaxSide,
           "the frame must have at most 65535 pixels a side");
   require(args.half_width >= 0 && args.clutter >= 0,
           "the window and the clutter must not be negative");

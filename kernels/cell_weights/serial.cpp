@@ -4,6 +4,7 @@
 
 #include "glint/kernels/cell_weights/bound.hpp"
 #include "glint/kernels/cell_weights/cells.hpp"
+#include "glint/kernels/core/cells.hpp"
 
 namespace glint {
 namespace {
@@ -16,8 +17,7 @@ std::uint32_t pixel_of(const Args& args, std::size_t i) {
   const float x = std::floor(args.x[i] + 0.5f), y = std::floor(args.y[i] + 0.5f);
   const auto width = static_cast<float>(args.width), height = static_cast<float>(args.height);
   if (!(x >= 0 && x < width && y >= 0 && y < height)) return kOutside;
-  return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(args.width) +
-         static_cast<std::uint32_t>(x);
+  return cell_at(static_cast<int>(x), static_cast<int>(y), args.width);
 }
 
 void sort_by_pixel(const Args& args, CellWorkspace& space) {

@@ -15,7 +15,7 @@ struct GreyPass {
   std::ptrdiff_t raw_pitch;
   int width, channels;
   bool reciprocal, stream;  ///< stream: store past the caches
-  float floor;
+  float floor, largest;
   float* grey;
   std::ptrdiff_t grey_pitch;
 };

@@ -48,11 +48,11 @@ bool grey_rows(const GreyPass<T>& pass, int y0, int y1) {
     for (int x = 0; x < pass.width; x += kGreyBlock) {
       const int n = pass.width - x < kGreyBlock ? pass.width - x : kGreyBlock;
       grey_block(raw + static_cast<std::ptrdiff_t>(x) * pass.channels, pass.channels, block, n);
-      if constexpr (T(0.5f) != T(0)) {  // only floats can be NaN or infinite
+      if constexpr (T(0.5f) != T(0)) {  // only floats can be bad
         for (int i = 0; i < n; ++i) {
-          const bool finite = block[i] - block[i] == 0;
-          masked |= finite ? 0 : 1;
-          block[i] = finite ? block[i] : __builtin_nanf("");
+          const bool good = block[i] <= pass.largest && block[i] >= -pass.largest;
+          masked |= good ? 0 : 1;
+          block[i] = good ? block[i] : __builtin_nanf("");
         }
       }
       if (pass.reciprocal) {

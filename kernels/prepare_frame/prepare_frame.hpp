@@ -22,11 +22,12 @@ struct RawPixels {
 };
 
 /// Raw pixels to a grey float frame, .2989 R + .587 G + .114 B (P-HPMHT (1)), optionally
-/// reciprocal, 255 / max(I, floor) (P-HPMHT (2) with a floor for dark pixels). NaN and infinite
-/// pixels become NaN.
+/// reciprocal, 255 / max(I, floor) (P-HPMHT (2) with a floor for dark pixels). Bad pixels,
+/// which are not finite or beyond +-kLargest, become NaN.
 struct ToGrey {
   static constexpr std::string_view name = "to_grey";
   static constexpr Tolerance tolerance{1e-5, 1e-6};
+  static constexpr float kLargest = 1e15f;  ///< sums of squares of as many as fit stay finite
   struct Args {
     RawPixels raw;
     bool reciprocal = false;

@@ -22,7 +22,7 @@ void ToGrey::serial(const Args& args) {
     for (int y = 0; y < args.raw.height; ++y) {
       for (int x = 0; x < args.raw.width; ++x) {
         double grey = grey_of(data + y * args.raw.pitch + x * args.raw.channels, args.raw.channels);
-        if (!std::isfinite(grey)) {
+        if (!(std::abs(grey) <= kLargest)) {
           grey = std::numeric_limits<double>::quiet_NaN();
           masked = true;
         } else if (args.reciprocal) {

@@ -20,6 +20,7 @@ bool convert(const ToGrey::Args& args, const T* raw, bool (*rows)(const GreyPass
                          args.reciprocal,
                          worth_streaming(args.grey),
                          args.reciprocal_floor,
+                         ToGrey::kLargest,
                          args.grey.data,
                          args.grey.pitch};
   std::atomic<bool> masked = false;

@@ -30,6 +30,8 @@ std::shared_ptr<GreyProblem<T>> grey_problem(int width, int height, int channels
       p->pixels[i] = p->pixels[i] / 100 - 50;
       if (masked && word % 50 == 0) p->pixels[i] = std::numeric_limits<float>::quiet_NaN();
       if (masked && word % 50 == 1) p->pixels[i] = std::numeric_limits<float>::infinity();
+      if (masked && word % 50 == 2) p->pixels[i] = std::numeric_limits<float>::lowest();
+      if (masked && word % 50 == 3) p->pixels[i] = -1.01f * ToGrey::kLargest;
     }
   }
   p->raw = {static_cast<const T*>(p->pixels.data()), width, height, channels, pitch};

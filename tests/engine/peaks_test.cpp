@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "glint/engine/filters/kmeans.hpp"
+#include "glint/kernels/core/cells.hpp"
 #include "glint/kernels/core/random.hpp"
 
 namespace glint {
@@ -37,11 +38,11 @@ Particles clouds(const std::vector<Cloud>& clouds) {
   return p;
 }
 
-CellRuns runs_of(const Particles& p) {
+CellRuns runs_of(const Particles& p, int width = kWidth, int height = kHeight) {
   std::vector<float> zero(p.size(), 0.0f), updated(p.size());
   CellWorkspace cells;
-  CellWeights::serial({.width = kWidth,
-                       .height = kHeight,
+  CellWeights::serial({.width = width,
+                       .height = height,
                        .half_width = 2,
                        .x = p.x,
                        .y = p.y,
@@ -108,6 +109,18 @@ TEST(Peaks, DoNotDependOnTheOrderOfTheParticles) {
     EXPECT_NEAR(want[i].x, got[i].x, 1e-9);
     EXPECT_NEAR(want[i].mass, got[i].mass, 1e-6);
   }
+}
+
+// Its cells are beyond 2^31.
+TEST(Peaks, AreFoundInTheFarCornerOfTheLargestFrame) {
+  const double far = kMaxSide - 5;
+  const Particles p = clouds({{far, far, 1.0, 300}});
+  PeakFinder finder;
+  const auto peaks = finder.find(p, runs_of(p, kMaxSide, kMaxSide), kMaxSide, kMaxSide, 2, {});
+  ASSERT_EQ(peaks.size(), 1u);
+  EXPECT_NEAR(peaks[0].x, far, 0.1);
+  EXPECT_NEAR(peaks[0].y, far, 0.1);
+  EXPECT_NEAR(peaks[0].mass, 1.0, 1e-3);
 }
 
 TEST(Peaks, OfAnEmptyCloudAreNone) {

@@ -63,6 +63,18 @@ TEST_P(PrepareFrame, ToGreyReportsPixelsThatAreNoNumbers) {
   EXPECT_FALSE(masked);
 }
 
+TEST_P(PrepareFrame, ToGreyTakesPixelsWhoseSquaresOverflowForBadOnes) {
+  const float last = ToGrey::kLargest, most = std::numeric_limits<float>::max();
+  const std::array<float, 4> pixels{last, -last, 1.001F * last, -most};
+  Image<float> grey(4, 1);
+  bool masked = false;
+  device_.run<ToGrey>({{pixels.data(), 4, 1, 1, 4}, false, 12, grey.view(), &masked});
+  EXPECT_TRUE(masked);
+  EXPECT_EQ(grey.view()(0, 0), last);
+  EXPECT_EQ(grey.view()(1, 0), -last);
+  EXPECT_TRUE(std::isnan(grey.view()(2, 0)) && std::isnan(grey.view()(3, 0)));
+}
+
 TEST(MedianNetwork, SortsTheMiddleOfEveryInputOfZerosAndOnes) {
   for (int n = 1; n <= 16; ++n) {
     const MedianNetwork network = median_network(n);

@@ -6,47 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "glint/kernels/core/particles.hpp"
+#include "propagate_cases.hpp"
 
-namespace glint {
+namespace glint::test {
 namespace {
 
-constexpr MotionMode kVelocity{Motion::constant_velocity, 0, 0};
-constexpr MotionMode kAcceleration{Motion::constant_acceleration, 0, 0};
-
-MotionMode turn(double rate) { return {Motion::coordinated_turn, static_cast<float>(rate), 0}; }
-
-Particles same(std::size_t n) {
-  Particles p;
-  p.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    p.x[i] = 100, p.y[i] = 50, p.vx[i] = 3, p.vy[i] = -4, p.ax[i] = 0.5f, p.ay[i] = 0.25f;
-    p.intensity[i] = 10, p.mode[i] = 0, p.weight[i] = 1;
-  }
-  return p;
-}
-
-Propagate::Args args_of(Particles& p, std::span<const MotionMode> modes) {
-  return {.x = p.x,
-          .y = p.y,
-          .vx = p.vx,
-          .vy = p.vy,
-          .intensity = p.intensity,
-          .ax = p.ax,
-          .ay = p.ay,
-          .mode = p.mode,
-          .modes = modes,
-          .switching = {},
-          .intensity_low = 8,
-          .intensity_high = 12,
-          .seed = 42,
-          .frame = 3};
-}
-
-class PropagateOn : public testing::TestWithParam<DeviceKind> {
- protected:
-  Device device_ = GetParam() == DeviceKind::serial ? Device::serial() : Device::tbb(2);
-};
 INSTANTIATE_TEST_SUITE_P(Devices, PropagateOn, testing::Values(DeviceKind::serial, DeviceKind::tbb),
                          [](const auto& instance) { return std::string(name(instance.param)); });
 
@@ -110,93 +74,6 @@ TEST_P(PropagateOn, AVerySlowTurnIsStraight) {
   device_.run<Propagate>(args_of(q, std::span(&kVelocity, 1)));
   EXPECT_EQ(p.x[2], q.x[2]);
   EXPECT_EQ(p.y[2], q.y[2]);
-}
-
-/// Sample covariance of what `args` adds to equal particles, over the arrays given.
-std::vector<std::vector<double>> covariance(const std::vector<AlignedVector<float>*>& arrays) {
-  const std::size_t k = arrays.size(), n = arrays[0]->size();
-  std::vector<double> mean(k, 0);
-  std::vector<std::vector<double>> sum(k, std::vector<double>(k, 0));
-  for (std::size_t a = 0; a < k; ++a) {
-    for (const float v : *arrays[a]) mean[a] += v / static_cast<double>(n);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t a = 0; a < k; ++a) {
-      for (std::size_t b = 0; b < k; ++b) {
-        sum[a][b] += ((*arrays[a])[i] - mean[a]) * ((*arrays[b])[i] - mean[b]);
-      }
-    }
-  }
-  for (auto& row : sum) {
-    for (double& v : row) v /= static_cast<double>(n);
-  }
-  return sum;
-}
-
-void expect_covariance(const std::vector<std::vector<double>>& got,
-                       const std::vector<std::vector<double>>& want, std::size_t n) {
-  for (std::size_t a = 0; a < want.size(); ++a) {
-    for (std::size_t b = 0; b < want.size(); ++b) {
-      const double spread =
-          std::sqrt((want[a][a] * want[b][b] + want[a][b] * want[a][b]) / static_cast<double>(n));
-      EXPECT_NEAR(got[a][b], want[a][b], 5 * spread) << a << "," << b;
-    }
-  }
-}
-
-constexpr std::size_t kSamples = 60000;
-
-TEST_P(PropagateOn, NoiseOfConstantVelocityHasTheCovarianceQ) {
-  Particles p = same(kSamples);
-  const MotionMode mode{Motion::constant_velocity, 0, 2};
-  Propagate::Args args = args_of(p, std::span(&mode, 1));
-  args.step = 1.5f;
-  args.intensity_noise = 0.1f;
-  args.intensity_low = 0, args.intensity_high = 100;
-  device_.run<Propagate>(args);
-  const double t = 1.5, q = 2, xx = q * t * t * t / 3, xv = q * t * t / 2, vv = q * t;
-  expect_covariance(covariance({&p.x, &p.vx, &p.y, &p.vy, &p.intensity}),
-                    {{xx, xv, 0, 0, 0},
-                     {xv, vv, 0, 0, 0},
-                     {0, 0, xx, xv, 0},
-                     {0, 0, xv, vv, 0},
-                     {0, 0, 0, 0, 0.1f * t}},
-                    kSamples);
-}
-
-TEST_P(PropagateOn, NoiseOfConstantAccelerationHasTheCovarianceQ) {
-  Particles p = same(kSamples);
-  const MotionMode mode{Motion::constant_acceleration, 0, 3};
-  Propagate::Args args = args_of(p, std::span(&mode, 1));
-  args.step = 0.8f;
-  device_.run<Propagate>(args);
-  const double t = 0.8f, q = 3;
-  const double xx = q * std::pow(t, 5) / 20, xv = q * std::pow(t, 4) / 8;
-  const double xa = q * std::pow(t, 3) / 6, vv = q * std::pow(t, 3) / 3;
-  const double va = q * t * t / 2, aa = q * t;
-  expect_covariance(covariance({&p.x, &p.vx, &p.ax, &p.y, &p.vy, &p.ay}),
-                    {{xx, xv, xa, 0, 0, 0},
-                     {xv, vv, va, 0, 0, 0},
-                     {xa, va, aa, 0, 0, 0},
-                     {0, 0, 0, xx, xv, xa},
-                     {0, 0, 0, xv, vv, va},
-                     {0, 0, 0, xa, va, aa}},
-                    kSamples);
-}
-
-TEST_P(PropagateOn, NoiseScaleMultipliesTheDeviation) {
-  Particles p = same(200), q = same(200);
-  const MotionMode mode{Motion::constant_velocity, 0, 1};
-  Propagate::Args args = args_of(p, std::span(&mode, 1));
-  device_.run<Propagate>(args);
-  const AlignedVector<float> scale(200, 3);
-  Propagate::Args scaled = args_of(q, std::span(&mode, 1));
-  scaled.noise_scale = scale;
-  device_.run<Propagate>(scaled);
-  for (std::size_t i = 0; i < 200; ++i) {
-    EXPECT_NEAR(q.x[i] - 103, 3 * (p.x[i] - 103), 1e-4);
-    EXPECT_NEAR(q.vy[i] + 4, 3 * (p.vy[i] + 4), 1e-5);
-  }
 }
 
 const float kSwitching[] = {0.8f, 0.15f, 0.05f, 0.3f, 0.7f, 0, 0.25f, 0.25f, 0.5f};
@@ -329,4 +206,4 @@ TEST_P(PropagateOn, RefusesWrongArguments) {
 }
 
 }  // namespace
-}  // namespace glint
+}  // namespace glint::test
