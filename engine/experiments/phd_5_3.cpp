@@ -80,6 +80,16 @@ std::vector<Contender> contenders() {
        at_least(78),
        at_most(40),
        {}},
+      {{"viterbi",
+        phd::appearance(kSigma, 11, 13) +
+            Settings{{"speed_max", 3.0}, {"acceleration_max", 2.0}, {"threshold", 30.0}}},
+       60,
+       21,
+       {},
+       {},
+       at_least(98),
+       at_most(30),
+       at_most(2.05)},
       {{"smc-phd-improved", particle_settings(1) + smc_phd}, {}, {}, {}, {}, {}, {}, {}},
   };
 }

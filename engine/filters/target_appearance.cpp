@@ -8,12 +8,16 @@
 
 namespace glint {
 
-void describe(FieldList& f, AppearanceConfig& c) {
+void describe_shape(FieldList& f, AppearanceConfig& c) {
   f.automatic(
       "psf_sigma", c.psf_sigma, 0, 2.66, "px",
       "width of the point spread; auto fits it to the brightest local maxima of the first frames");
   f("snr_low", c.snr_low, -20, 80, "dB", "weakest target: peak over noise, 20 log10");
   f("snr_high", c.snr_high, -20, 80, "dB", "strongest target");
+}
+
+void describe(FieldList& f, AppearanceConfig& c) {
+  describe_shape(f, c);
   f("intensity_walk", c.intensity_walk, 0, 100, "sigma",
     "how far a target's peak wanders from frame to frame, in noise sigmas");
   f("jitter", c.jitter, 0, 5, "px", "position error of the sensor, sampled per particle");

@@ -17,6 +17,8 @@ struct AppearanceConfig {
   double jitter = 0.2;                ///< [px]
 };
 void describe(FieldList& list, AppearanceConfig& config);
+/// psf_sigma and the range of SNR alone.
+void describe_shape(FieldList& list, AppearanceConfig& config);
 
 /// The point spread and the range of intensities, given or fitted to the first frames.
 class TargetAppearance {

@@ -9,6 +9,7 @@
 #include "glint/engine/trackers/mm_pf.hpp"
 #include "glint/engine/trackers/mm_phd.hpp"
 #include "glint/engine/trackers/smc_phd.hpp"
+#include "glint/engine/trackers/viterbi.hpp"
 
 namespace glint {
 namespace {
@@ -37,6 +38,8 @@ constexpr std::array kTrackers{
     entry<ImmPdaAi, ImmPdaAiConfig>(
         "imm-pda-ai", "points by multiple models and probabilistic association, with amplitudes",
         Feed::both),
+    entry<Viterbi, ViterbiConfig>(
+        "viterbi", "dynamic programming: the best paths through a sliding window of frames"),
 };
 
 }  // namespace
