@@ -22,7 +22,8 @@ Polarity polarity_of(const std::string& name) {
 }
 
 /// Least sigma in grey levels: compressed video freezes blocks, sensors repeat values, and a noise
-/// of 0 would make a target of every later change. Key frames of a codec leave residues of 3 levels.
+/// of 0 would make a target of every later change. Key frames of a codec leave residues of 3
+/// levels.
 double automatic_floor(const RawPixels& raw, bool reciprocal, FrameView grey) {
   if (reciprocal) return 0.05;
   if (std::holds_alternative<const std::uint8_t*>(raw.data)) return 4;

@@ -39,7 +39,8 @@ class TargetAmplitude {
     // the target is normal about its mean, as wide as an extended target's parts are uneven.
     const double spread = std::max(1.0, 0.3 * mean_);
     const double off = (a - mean_) / spread;
-    return (a * a - t * t) / 2 - off * off / 2 - std::log(spread * std::sqrt(2 * std::numbers::pi) * (1 + t));
+    return (a * a - t * t) / 2 - off * off / 2 -
+           std::log(spread * std::sqrt(2 * std::numbers::pi) * (1 + t));
   }
 
  private:

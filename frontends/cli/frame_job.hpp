@@ -19,14 +19,14 @@ struct FrameOptions {
   std::vector<std::pair<std::string, std::string>> run;  ///< key and text of [run] settings
   bool quiet = false;
 };
-/// Adds --profile, --config, --set, --device, --threads, --seed and --quiet. `options` must live as long as
-/// the command.
+/// Adds --profile, --config, --set, --device, --threads, --seed and --quiet. `options` must live as
+/// long as the command.
 void add_run_options(CLI::App& command, FrameOptions& options);
 /// Adds INPUT..., the run options, --fps, --add-noise and --mask.
 void add_frame_options(CLI::App& command, FrameOptions& options);
 
-/// What a run of frames is made of, settled from file and options. Order: defaults, --profile, --config,
-/// options, --set.
+/// What a run of frames is made of, settled from file and options. Order: defaults, --profile,
+/// --config, options, --set.
 struct FrameJob {
   std::vector<std::string> inputs, trackers;
   std::vector<ConfigSection> sections;  ///< those that this run uses

@@ -39,8 +39,8 @@ std::string nearest(std::string_view wanted, std::span<const std::string> known)
 
 std::string_view last_part(std::string_view key) { return key.substr(key.rfind('.') + 1); }
 
-std::vector<Setting> all_settings(std::span<ConfigSection> sections) {
-  std::vector<Setting> settings;
+std::vector<FoundSetting> all_settings(std::span<ConfigSection> sections) {
+  std::vector<FoundSetting> settings;
   for (ConfigSection& section : sections) {
     for (ConfigField& field : section.fields()) settings.push_back({&section, &field});
   }
@@ -51,7 +51,7 @@ std::vector<Setting> all_settings(std::span<ConfigSection> sections) {
   const bool full = key.find('.') != std::string_view::npos;
   std::vector<std::string> known;
   std::string meant;  // the same key of another section, or a similar one of the same
-  for (const Setting& s : all_settings(sections)) {
+  for (const FoundSetting& s : all_settings(sections)) {
     if (full && s.field->key == last_part(key)) meant = s.key();
     if (!full || key.starts_with(s.section->name() + '.')) {
       known.push_back(full ? s.key() : s.field->key);
@@ -70,9 +70,9 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-Setting find_setting(std::string_view key, std::span<ConfigSection> sections) {
-  std::vector<Setting> found;
-  for (const Setting& s : all_settings(sections)) {
+FoundSetting find_setting(std::string_view key, std::span<ConfigSection> sections) {
+  std::vector<FoundSetting> found;
+  for (const FoundSetting& s : all_settings(sections)) {
     const std::string full = s.key();
     if (full == key) return s;
     if (full.ends_with('.' + std::string(key))) found.push_back(s);
@@ -80,7 +80,7 @@ Setting find_setting(std::string_view key, std::span<ConfigSection> sections) {
   if (found.empty()) refuse_key(key, sections);
   if (found.size() == 1) return found.front();
   std::string names;
-  for (const Setting& s : found) names += (names.empty() ? "" : ", ") + s.key();
+  for (const FoundSetting& s : found) names += (names.empty() ? "" : ", ") + s.key();
   throw ConfigError("key " + std::string(key) + " is ambiguous: use one of " + names);
 }
 
@@ -102,7 +102,7 @@ void apply_set(std::string_view assignment, std::span<ConfigSection> sections) {
   if (equals == std::string_view::npos) {
     throw ConfigError("'" + std::string(assignment) + "' is no setting: write key=value");
   }
-  const Setting setting = find_setting(trimmed(assignment.substr(0, equals)), sections);
+  const FoundSetting setting = find_setting(trimmed(assignment.substr(0, equals)), sections);
   try {
     assign_text(*setting.field, std::string(trimmed(assignment.substr(equals + 1))));
   } catch (const ConfigError& e) {

@@ -9,7 +9,7 @@
 namespace glint {
 
 /// A field and the section that it stands in.
-struct Setting {
+struct FoundSetting {
   ConfigSection* section = nullptr;
   ConfigField* field = nullptr;
   std::string key() const { return section->name() + '.' + field->key; }
@@ -18,7 +18,7 @@ struct Setting {
 /// The setting whose full key ("trackers.smc-phd.birth_particles") is `key` or ends in ".<key>"; a
 /// full match goes before the others. Throws ConfigError for none, with the nearest known key, and
 /// for several, with their full keys.
-Setting find_setting(std::string_view key, std::span<ConfigSection> sections);
+FoundSetting find_setting(std::string_view key, std::span<ConfigSection> sections);
 
 /// Throws ConfigError for a section [name] that is not among `sections`, with the nearest one.
 [[noreturn]] void refuse_section(std::string_view name, std::span<ConfigSection> sections);

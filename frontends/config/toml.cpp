@@ -31,7 +31,7 @@ ConfigValue value_of(const std::string& key, const toml::node& node) {
 }
 
 void set(const std::string& key, const toml::node& node, std::span<ConfigSection> sections) {
-  const Setting setting = find_setting(key, sections);
+  const FoundSetting setting = find_setting(key, sections);
   if (setting.key() != key) {
     throw ConfigError("unknown key " + key + ": did you mean " + setting.key() + "?");
   }
