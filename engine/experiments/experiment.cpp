@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "glint/engine/config.hpp"
+#include "glint/engine/experiments/hpmht.hpp"
 #include "glint/engine/experiments/phd.hpp"
 
 namespace glint {
@@ -19,6 +20,10 @@ constexpr std::array kExperiments{
                     run_phd_5_2},
     ExperimentEntry{"phd-5.3", "track-before-detect systems side by side: P-PHD section 5.3", 100,
                     run_phd_5_3},
+    ExperimentEntry{"hpmht-table2", "a dark aircraft before clouds: P-HPMHT table 2", 20,
+                    run_hpmht_table_2},
+    ExperimentEntry{"hpmht-table3", "the same at other thresholds: P-HPMHT table 3", 20,
+                    run_hpmht_table_3},
 };
 
 }  // namespace
