@@ -4,20 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/engine/filters/peak_point.hpp"
+
 namespace glint {
 namespace {
 
 double distance(double x0, double y0, double x1, double y1) { return std::hypot(x0 - x1, y0 - y1); }
-
-TrackPoint report_of(const Peak& peak, std::size_t modes) {
-  TrackPoint point;
-  point.x = peak.x, point.y = peak.y, point.vx = peak.vx, point.vy = peak.vy;
-  point.intensity = peak.intensity;
-  point.existence = std::min(1.0, peak.mass);
-  point.var_x = peak.var_x, point.cov_xy = peak.cov_xy, point.var_y = peak.var_y;
-  for (std::size_t m = 0; m < modes; ++m) point.mode_probability.push_back(peak.mode_mass[m]);
-  return point;
-}
 
 }  // namespace
 
@@ -91,9 +83,9 @@ void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32
     for (const auto i : of(peaks[k])) particles.label[i] = claimed_[k];
     const auto t = std::find_if(tracks_.begin(), tracks_.end(),
                                 [&](const Track& u) { return u.id == claimed_[k]; });
-    TrackPoint point = report_of(peaks[k], modes);
-    point.frame = frame, point.time = time, point.track_id = t->id;
-    point.vx *= velocity_scale, point.vy *= velocity_scale;
+    TrackPoint point = point_of(peaks[k], modes, {frame, time, step, velocity_scale});
+    point.track_id = t->id;
+    point.existence = std::min(1.0, peaks[k].mass);
     point.status =
         t->hits >= config_.confirm_hits ? TrackStatus::confirmed : TrackStatus::tentative;
     log.report(point);

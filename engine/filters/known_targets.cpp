@@ -14,19 +14,6 @@ double distance(const Peak& a, const Peak& b) { return std::hypot(a.x - b.x, a.y
 
 }  // namespace
 
-TrackPoint point_of(const Peak& estimate, std::size_t modes, const StepTime& at) {
-  TrackPoint point;
-  point.frame = at.frame, point.time = at.time;
-  point.x = estimate.x, point.y = estimate.y;
-  point.vx = estimate.vx * at.velocity_scale, point.vy = estimate.vy * at.velocity_scale;
-  point.intensity = estimate.intensity;
-  point.var_x = estimate.var_x, point.cov_xy = estimate.cov_xy, point.var_y = estimate.var_y;
-  for (std::size_t m = 0; m < modes; ++m) {
-    point.mode_probability.push_back(estimate.mode_mass[m]);  // P-PHD (35)
-  }
-  return point;
-}
-
 KnownTargets::KnownTargets(const KnownTargetsConfig& config, const MotionBank& bank,
                            const Device& device, std::uint64_t seed)
     : config_(config),

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "glint/engine/config.hpp"
-#include "glint/engine/filters/step_clock.hpp"
+#include "glint/engine/filters/peak_point.hpp"
 #include "glint/engine/filters/target_clouds.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/engine/tracks.hpp"
@@ -41,9 +41,6 @@ struct KnownTarget {
   std::int64_t first_missed = 0;  ///< of the present row of misses
   Peak estimate;                  ///< velocity a frame
 };
-
-/// A track point of `estimate` at that time.
-TrackPoint point_of(const Peak& estimate, std::size_t modes, const StepTime& at);
 
 /// Tracks from their detection to their end, each with a particle filter of its own.
 class KnownTargets {

@@ -7,10 +7,9 @@
 #include <numeric>
 
 #include "glint/engine/filters/moved_particles.hpp"
+#include "glint/engine/filters/particle_steps.hpp"
 #include "glint/kernels/cell_weights/bound.hpp"
 #include "glint/kernels/core/math.hpp"
-#include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
-#include "glint/kernels/propagate/propagate.hpp"
 
 namespace glint {
 namespace {
@@ -62,23 +61,7 @@ void SearchCloud::clear() {
 void SearchCloud::predict(const Frame& z, std::int64_t frame, double step, const PixelMask& mask,
                           std::span<const float> noise_scale) {
   auto& p = particles_;
-  device_.run<Propagate>({.x = p.x,
-                          .y = p.y,
-                          .vx = p.vx,
-                          .vy = p.vy,
-                          .intensity = p.intensity,
-                          .ax = p.ax,
-                          .ay = p.ay,
-                          .mode = p.mode,
-                          .modes = bank_.modes,
-                          .switching = bank_.switching,
-                          .step = static_cast<float>(step),
-                          .intensity_noise = appearance_.intensity_noise(),
-                          .intensity_low = appearance_.intensity_low(),
-                          .intensity_high = appearance_.intensity_high(),
-                          .noise_scale = noise_scale,
-                          .seed = seed_,
-                          .frame = static_cast<std::uint32_t>(frame)});
+  move_particles({bank_, appearance_, device_, seed_}, frame, step, p, noise_scale);
   // P-PHD (11): survivors keep w_{k-1}, times the probability of survival.
   const auto survival = static_cast<float>(config_.survival);
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -106,14 +89,7 @@ void SearchCloud::update(const Frame& z, std::int64_t frame) {
   auto& p = particles_;
   log_ratio_.resize(p.size());
   updated_.resize(p.size());
-  device_.run<ParticleLikelihood>({.frame = z.view(),
-                                   .spread = appearance_.spread(),
-                                   .x = p.x,
-                                   .y = p.y,
-                                   .intensity = p.intensity,
-                                   .log_ratio = log_ratio_,
-                                   .jitter = appearance_.jitter(),
-                                   .key = random_key(seed_, index_of(frame), Purpose::jitter)});
+  weigh_particles({bank_, appearance_, device_, seed_}, z, frame, p, log_ratio_);
   device_.run<CellWeights>({.width = z.width(),
                             .height = z.height(),
                             .half_width = appearance_.spread().half_width,

@@ -35,6 +35,11 @@ class TargetAppearance {
   /// Variance of the intensity's random walk [sigma^2/frame].
   float intensity_noise() const;
   float jitter() const { return static_cast<float>(config_.jitter); }
+  /// Half side of a box around a target [px], 0 = auto: half the window, in whole pixels or not.
+  int mask_half_width(double given) const {
+    return given > 0 ? static_cast<int>(given) : spread_.half_width;
+  }
+  double cluster_radius(double given) const { return given > 0 ? given : spread_.half_width + 0.5; }
   /// "psf_sigma = 1.04 px (fitted ...)".
   std::string note() const;
 

@@ -6,9 +6,8 @@
 #include <numeric>
 
 #include "glint/engine/filters/moved_particles.hpp"
+#include "glint/engine/filters/particle_steps.hpp"
 #include "glint/kernels/cell_weights/bound.hpp"
-#include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
-#include "glint/kernels/propagate/propagate.hpp"
 
 namespace glint {
 namespace {
@@ -83,36 +82,13 @@ void TargetClouds::reverse_velocities() {
 }
 
 void TargetClouds::predict(std::int64_t frame, double step) {
-  auto& p = particles_;
-  device_.run<Propagate>({.x = p.x,
-                          .y = p.y,
-                          .vx = p.vx,
-                          .vy = p.vy,
-                          .intensity = p.intensity,
-                          .ax = p.ax,
-                          .ay = p.ay,
-                          .mode = p.mode,
-                          .modes = bank_.modes,
-                          .switching = bank_.switching,
-                          .step = static_cast<float>(step),
-                          .intensity_noise = appearance_.intensity_noise(),
-                          .intensity_low = appearance_.intensity_low(),
-                          .intensity_high = appearance_.intensity_high(),
-                          .seed = seed_,
-                          .frame = static_cast<std::uint32_t>(frame)});
+  move_particles({bank_, appearance_, device_, seed_}, frame, step, particles_);
 }
 
 std::span<const TargetUpdate> TargetClouds::update(const Frame& z, std::int64_t frame) {
   auto& p = particles_;
   log_ratio_.resize(p.size());
-  device_.run<ParticleLikelihood>({.frame = z.view(),
-                                   .spread = appearance_.spread(),
-                                   .x = p.x,
-                                   .y = p.y,
-                                   .intensity = p.intensity,
-                                   .log_ratio = log_ratio_,
-                                   .jitter = appearance_.jitter(),
-                                   .key = random_key(seed_, index_of(frame), Purpose::jitter)});
+  weigh_particles({bank_, appearance_, device_, seed_}, z, frame, p, log_ratio_);
   if (indices_.size() < p.size()) {
     indices_.resize(p.size());
     std::iota(indices_.begin(), indices_.end(), 0u);

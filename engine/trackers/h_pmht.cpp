@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/engine/intensity_levels.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
 
 namespace glint {
@@ -26,24 +27,6 @@ BatchConfig batch_config(const HPmhtConfig& config) {
 
 double distance(const BatchState& a, const BatchState& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
-}
-
-/// P-HPMHT (23), with the 99.9 % quantile in place of the maximum, which a single black pixel sets.
-double intensity_threshold(FrameView frame, std::vector<float>& pixels) {
-  constexpr double kQuantile = 0.999;
-  pixels.clear();
-  double sum = 0;
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x) {
-      const float value = frame(x, y);
-      if (std::isfinite(value)) pixels.push_back(value), sum += value;
-    }
-  }
-  if (pixels.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(kQuantile * static_cast<double>(pixels.size()));
-  const auto at = pixels.begin() + static_cast<std::ptrdiff_t>(std::min(rank, pixels.size() - 1));
-  std::nth_element(pixels.begin(), at, pixels.end());
-  return sum / static_cast<double>(pixels.size()) + 0.1 * *at;
 }
 
 }  // namespace
@@ -109,7 +92,8 @@ CellRule HPmht::rule_of(FrameView frame) {
   if (config_.intensity == "whitened") {
     return {.threshold = static_cast<float>(config_.noise_threshold), .subtract = true};
   }
-  const double level = config_.threshold_scale * intensity_threshold(frame, quantile_workspace_);
+  const double level =
+      config_.threshold_scale * intensity_levels(frame, quantile_workspace_).displayed();
   return {.threshold = static_cast<float>(level), .subtract = config_.threshold == "subtract"};
 }
 

@@ -49,8 +49,7 @@ void MmPf::step(const Scan& scan, TrackLog& log) {
 
 void MmPf::search(const Frame& z, const StepTime& at, TrackLog& log) {
   const int half_width = appearance_.spread().half_width;
-  targets_.boxes(
-      config_.mask_half_width > 0 ? static_cast<int>(config_.mask_half_width) : half_width, boxes_);
+  targets_.boxes(appearance_.mask_half_width(config_.mask_half_width), boxes_);
   mask_.set(boxes_, z.width(), z.height());
   search_.predict(z, at.frame, at.step, mask_);
   search_.update(z, at.frame);
@@ -59,7 +58,7 @@ void MmPf::search(const Frame& z, const StepTime& at, TrackLog& log) {
   const double wanted = (1 - config_.miss_probability) / config_.false_probability;
   if (odds >= wanted * config_.birth_mass) {
     constexpr double kShare = 0.1;  // of the odds: the biggest cluster has more
-    const double radius = config_.cluster_radius > 0 ? config_.cluster_radius : half_width + 0.5;
+    const double radius = appearance_.cluster_radius(config_.cluster_radius);
     const auto peaks = peaks_.find(search_.particles(), search_.runs(), z.width(), z.height(),
                                    half_width, {kShare * odds, radius});
     if (!peaks.empty()) {

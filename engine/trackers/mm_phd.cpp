@@ -21,29 +21,25 @@ void MmPhd::step(const Scan& scan, TrackLog& log) {
   }
   const StepTime at = clock_.tick(scan);
   targets_.follow(scan.whitened, at, log);
-  for (const std::size_t t : targets_.confirmed_now()) backward_.trace(targets_, t, log);
   detect(scan.whitened, at, log);
+  for (const std::size_t t : targets_.confirmed_now()) backward_.trace(targets_, t, log);
   backward_.remember(scan.whitened, at, targets_.targets());
 }
 
 // Tracked targets are masked in the detector only. P-PHD (36)
 void MmPhd::detect(const Frame& z, const StepTime& at, TrackLog& log) {
   const int half_width = appearance_.spread().half_width;
-  targets_.boxes(
-      config_.mask_half_width > 0 ? static_cast<int>(config_.mask_half_width) : half_width, boxes_);
+  targets_.boxes(appearance_.mask_half_width(config_.mask_half_width), boxes_);
   mask_.set(boxes_, z.width(), z.height());
   search_.predict(z, at.frame, at.step, mask_);
   search_.update(z, at.frame);
-  const double radius = config_.cluster_radius > 0 ? config_.cluster_radius : half_width + 0.5;
+  const double radius = appearance_.cluster_radius(config_.cluster_radius);
   const auto peaks = peaks_.find(search_.particles(), search_.runs(), z.width(), z.height(),
                                  half_width, {config_.existence, radius});
   for (const Peak& peak : peaks) {
     const auto members = peaks_.members(peak);
     targets_.detect(peak, search_.particles(), members, at, log);
     search_.remove(members);
-  }
-  for (const std::size_t t : targets_.confirmed_now()) {
-    if (targets_.targets()[t].detected == at.frame) backward_.trace(targets_, t, log);
   }
   search_.resample(at.frame);
 }

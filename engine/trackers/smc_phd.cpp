@@ -38,7 +38,7 @@ void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
     classes = kmeans_states(particles, random_key(seed_, frame, Purpose::kmeans), kmeans_members_);
     found = classes, members = kmeans_members_;
   } else {
-    const double radius = config_.cluster_radius > 0 ? config_.cluster_radius : half_width + 0.5;
+    const double radius = appearance_.cluster_radius(config_.cluster_radius);
     found = peaks_.find(particles, cloud_.runs(), scan.whitened.width(), scan.whitened.height(),
                         half_width, {config_.existence, radius});
     members = peaks_.members();
