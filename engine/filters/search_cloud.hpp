@@ -25,7 +25,7 @@ struct MotionConfig {
   double survival = 0.99;
   MotionBank bank() const;
 };
-void describe(FieldList& list, MotionConfig& config);
+void describe(FieldList& f, MotionConfig& c);
 
 /// Settings of a particle cloud that looks for targets all over the frame.
 struct SearchConfig : AppearanceConfig, MotionConfig {
@@ -42,7 +42,7 @@ struct SearchConfig : AppearanceConfig, MotionConfig {
   std::string psi = "window";
   double clutter = 1;
 };
-void describe(FieldList& list, SearchConfig& config);
+void describe(FieldList& f, SearchConfig& c);
 
 /// What the weights of a cloud sum to after the update.
 enum class CloudWeight {

@@ -16,9 +16,9 @@ struct AppearanceConfig {
   double intensity_walk = 0.2;        ///< [noise sigmas of peak, per frame]
   double jitter = 0.2;                ///< [px]
 };
-void describe(FieldList& list, AppearanceConfig& config);
+void describe(FieldList& f, AppearanceConfig& c);
 /// psf_sigma and the range of SNR alone.
-void describe_shape(FieldList& list, AppearanceConfig& config);
+void describe_shape(FieldList& f, AppearanceConfig& c);
 
 /// The point spread and the range of intensities, given or fitted to the first frames.
 class TargetAppearance {

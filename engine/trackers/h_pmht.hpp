@@ -47,7 +47,7 @@ struct HPmhtConfig {
   double halt_count = 1.5;
   int halt_frames = 3;
 };
-void describe(FieldList& list, HPmhtConfig& config);
+void describe(FieldList& f, HPmhtConfig& c);
 
 /// Histogram probabilistic multi-hypothesis tracker, P-HPMHT, over a sliding batch of scans, with
 /// targets that come and go (docs/trackers/h-pmht.md). Tracks enter the log when they are

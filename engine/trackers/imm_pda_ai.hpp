@@ -35,7 +35,7 @@ struct ImmPdaAiConfig {
   int halt_misses = 4;                       ///< scans
   double separation = 6;                     ///< [px]
 };
-void describe(FieldList& list, ImmPdaAiConfig& config);
+void describe(FieldList& f, ImmPdaAiConfig& c);
 
 /// Interacting multiple models with probabilistic data association and amplitude information, a
 /// tracker of points: P-HPMHT section 4 after Lerro and Bar-Shalom 1993, started and ended by

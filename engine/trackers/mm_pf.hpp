@@ -24,7 +24,7 @@ struct MmPfConfig : SearchConfig {
   double separation = 6;       ///< [px]
   KnownTargetsConfig known_targets() const;
 };
-void describe(FieldList& list, MmPfConfig& config);
+void describe(FieldList& f, MmPfConfig& c);
 
 /// Heuristic multi-target MM-PF track-before-detect, what P-PHD section 5.3 compares with: a search
 /// cloud holds the posterior odds of one target more, Boers and Driessen's likelihood ratio test

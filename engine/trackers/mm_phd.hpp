@@ -26,7 +26,7 @@ struct MmPhdConfig : SearchConfig {
   int backward_frames = 12;
   KnownTargetsConfig known_targets() const;
 };
-void describe(FieldList& list, MmPhdConfig& config);
+void describe(FieldList& f, MmPhdConfig& c);
 
 /// MM-PHD track-before-detect, P-PHD section 4: a PHD detector over all motion models finds new
 /// targets, each one then has a particle filter of its own, and when a track is confirmed a

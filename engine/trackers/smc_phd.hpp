@@ -24,7 +24,7 @@ struct SmcPhdConfig : SearchConfig {
   double noise_adaptation = 1;  ///< Qmax / Qmin; 1 = fixed
   IdentityConfig identity;
 };
-void describe(FieldList& list, SmcPhdConfig& config);
+void describe(FieldList& f, SmcPhdConfig& c);
 
 /// The tracker of P-PHD section 3.2: process noise that adapts to each target (21) and resampling
 /// on the likelihood (24), with the settings of section 5.1 otherwise those of `smc-phd`.

@@ -23,7 +23,7 @@ struct ViterbiConfig : AppearanceConfig {
   int common_frames = 3;
   int settled_frames = 4;
 };
-void describe(FieldList& list, ViterbiConfig& config);
+void describe(FieldList& f, ViterbiConfig& c);
 
 /// Viterbi-like dynamic programming track-before-detect, what P-PHD section 5.3 compares with: the
 /// best paths through a sliding window of log-likelihood ratio maps, stitched to tracks. Tracks are
