@@ -19,6 +19,7 @@ constexpr std::array kScenes{
     entry<PhdArcsScene>("three dim targets on arcs, a frame every 2 s: P-PHD section 5.3"),
     entry<IrClipScene>("infrared-like clip, six dim targets over clouds and ground"),
     entry<AircraftScene>("a dark aircraft before a cloudy sky: P-HPMHT section 4"),
+    entry<PmhtClipScene>("fast point targets on splines and turns: P-PMHT section 4"),
     entry<CrossingScene>("two targets that cross"),
     entry<NoiseScene>("white noise alone"),
 };

@@ -62,6 +62,17 @@ struct AircraftScene {
 void describe(FieldList& list, AircraftScene& config);
 Scene make_scene(const AircraftScene& config);
 
+/// P-PMHT section 4: paths over 1024x256 pixels, up to 17 px/frame, before white noise. bs44, bs49
+/// and bs50 stand for the paper's clips ir44, ir49 and ir50, whose paths it does not print.
+struct PmhtClipScene {
+  static constexpr std::string_view kName = "pmht-clip";
+  std::string clip = "bs44";
+  double snr = 14;  ///< [dB]
+  int variant = 0;
+};
+void describe(FieldList& list, PmhtClipScene& config);
+Scene make_scene(const PmhtClipScene& config);
+
 /// White noise and nothing else.
 struct NoiseScene {
   static constexpr std::string_view kName = "noise";

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/scenario/point_sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "glint/kernels/core/random.hpp"
+
+namespace glint {
+namespace {
+
+/// `size` scaled by a random word.
+float pixel(std::uint32_t word, int size) {
+  return static_cast<float>((static_cast<std::uint64_t>(word) * static_cast<std::uint64_t>(size)) >>
+                            32);
+}
+
+}  // namespace
+
+int PointSensor::clutter_of(const Scene& scene, double percent) {
+  return static_cast<int>(std::lround(percent / 100 * scene.width * scene.height));
+}
+
+double PointSensor::clutter_density(const Scene& scene) const {
+  return static_cast<double>(clutter) / scene.width / scene.height;
+}
+
+std::vector<Point> points_at(const Scene& scene, const PointSensor& sensor, std::uint64_t seed,
+                             int frame) {
+  std::vector<Point> points;
+  const RandomKey noise = random_key(seed, static_cast<std::uint64_t>(frame), Purpose::scenario);
+  const double sigma = std::sqrt(sensor.variance);
+  for (const TruthPoint& target : truth_at(scene, frame)) {
+    const Normals4 n = random_normals(noise, static_cast<std::uint32_t>(target.track_id));
+    double x = target.x + sigma * static_cast<double>(n.n[0]);
+    double y = target.y + sigma * static_cast<double>(n.n[1]);
+    if (sensor.rounds) x = std::round(x), y = std::round(y);
+    points.push_back({static_cast<float>(x), static_cast<float>(y), sensor.amplitude});
+  }
+  const RandomKey clutter = random_key(seed, static_cast<std::uint64_t>(frame), Purpose::clutter);
+  const int count = frame >= sensor.clutter_from ? sensor.clutter : 0;
+  for (int i = 0; i < count; ++i) {
+    const Words4 r = random_words(clutter, static_cast<std::uint32_t>(i));
+    points.push_back({pixel(r.w[0], scene.width), pixel(r.w[1], scene.height), sensor.amplitude});
+  }
+  std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
+    return std::tie(a.y, a.x) < std::tie(b.y, b.x);
+  });
+  return points;
+}
+
+}  // namespace glint
