@@ -88,7 +88,8 @@ void FramePreparer::State::start(const RawPixels& raw) {
   pixel_type = raw.data.index();
   channels = raw.channels;
   const auto cells = [&](int step) {
-    return static_cast<double>((raw.width + step - 1) / step) * ((raw.height + step - 1) / step);
+    const int columns = (raw.width + step - 1) / step, rows = (raw.height + step - 1) / step;
+    return static_cast<double>(columns) * rows;
   };
   while (cells(noise_step) > kNoiseSamples) noise_step += 2;
   noise = Image<float>((raw.width + noise_step - 1) / noise_step,

@@ -57,6 +57,7 @@ std::vector<ConfigSection> used_sections(std::span<const ConfigSection> all,
   }
   names.insert(names.end(), more.begin(), more.end());
   std::vector<ConfigSection> used;
+  used.reserve(names.size());
   for (const auto& name : names) used.push_back(section_named(all, name));
   return used;
 }
@@ -133,7 +134,9 @@ FrameJob settle(const FrameOptions& options, const std::vector<std::string>& mor
   std::vector<ConfigSection> all = all_sections();
   if (!options.profile.empty()) apply_profile(options.profile, all);
   if (!options.config.empty()) read_config(options.config, all);
-  for (const auto& [key, text] : options.run) apply_set("run." + key + '=' + text, all);
+  for (const auto& [key, text] : options.run) {
+    apply_set(std::string("run.").append(key).append("=").append(text), all);
+  }
   for (const auto& set : options.sets) {
     if (sets_tracker(set)) apply_set(set, all);
   }
