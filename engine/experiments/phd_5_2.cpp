@@ -108,17 +108,19 @@ void add_curves(const Condition& condition, const Runs& runs, ExperimentResult& 
   result.curves.push_back(mean_curve(
       "all targets", condition.title(), "ospa", runs,
       [](const SceneRun& r, std::size_t k) { return r.revised.scores.ospa[k].distance; }));
+  const std::vector<std::string>& modes = runs.front().mode_names;
   for (std::size_t t = 0; t < kTargets; ++t) {
-    const std::string level = "target " + std::to_string(t + 1);
-    result.curves.push_back(rmse_curve(level, condition.title(), runs, &SceneRun::revised, t));
-    if (runs.front().mode_names.size() < 2) continue;
-    for (std::size_t m = 0; m < runs.front().mode_names.size(); ++m) {
-      result.curves.push_back(mean_curve(level,
-                                         condition.title() + ", " + runs.front().mode_names[m], "p",
-                                         runs, [t, m](const SceneRun& r, std::size_t k) {
-                                           const ModeProbability& p = r.online.targets[t].modes[k];
-                                           return m < p.size() ? p[m] : kUndefined;
-                                         }));
+    const std::string target = "target " + std::to_string(t + 1);
+    result.curves.push_back(rmse_curve(target, condition.title(), runs, &SceneRun::revised, t));
+    if (modes.size() < 2) continue;
+    const std::string level = condition.level.empty() ? target : target + ", " + condition.level;
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+      const auto probability = [t, m](const SceneRun& r, std::size_t k) {
+        const ModeProbability& p = r.online.targets[t].modes[k];
+        return m < p.size() ? p[m] : kUndefined;
+      };
+      result.curves.push_back(
+          mean_curve(level, condition.name + ", " + modes[m], "p", runs, probability));
     }
   }
 }

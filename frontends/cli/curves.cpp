@@ -4,13 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "glint/engine/text.hpp"
 #include "glint/frontends/files/tables.hpp"
-#ifdef GLINT_WITH_OPENCV
-#include "glint/frontends/video/plot.hpp"
-#endif
 
 namespace glint::cli {
 namespace {
@@ -57,6 +53,15 @@ std::string row_of(const std::vector<const Curve*>& table, std::size_t frame,
   return row;
 }
 
+/// A column's name, with its unit.
+std::string axis_label(const std::string& metric) {
+  if (metric == "ospa") return "OSPA [px]";
+  if (metric == "rmse") return "RMSE [px]";
+  if (metric == "n") return "expected number of targets";
+  if (metric == "p") return "model probability";
+  return metric;
+}
+
 }  // namespace
 
 void write_curves(const std::string& path, const ExperimentResult& result) {
@@ -74,22 +79,25 @@ void write_curves(const std::string& path, const ExperimentResult& result) {
   flush_output(file, path);
 }
 
+std::vector<PlotRow> plot_of(const ExperimentResult& result) {
+  std::vector<PlotRow> rows;
+  for (const std::string& metric : metrics_of(result)) {
+    PlotRow row{"frame", axis_label(metric), metric == "n", {}};
+    for (const Curve& curve : result.curves) {
+      if (curve.metric != metric) continue;
+      auto panel = std::ranges::find(row.panels, curve.level, &PlotPanel::title);
+      if (panel == row.panels.end()) panel = row.panels.insert(panel, {curve.level, {}});
+      panel->lines.push_back({curve.condition, curve.frame, curve.value});
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 #ifdef GLINT_WITH_OPENCV
 void plot_curves(const std::string& path, const ExperimentResult& result) {
-  std::vector<std::string> levels;
-  for (const Curve& curve : result.curves) add_new(levels, curve.level);
-  std::vector<PlotPanel> panels;
-  for (const std::string& metric : metrics_of(result)) {
-    for (const std::string& level : levels) {
-      PlotPanel panel{level, "frame", metric, {}};
-      for (const Curve& curve : result.curves) {
-        if (curve.metric != metric || curve.level != level) continue;
-        panel.lines.push_back({curve.condition, curve.frame, curve.value});
-      }
-      panels.push_back(std::move(panel));
-    }
-  }
-  if (!panels.empty()) write_plot(path, panels, static_cast<int>(levels.size()));
+  const std::vector<PlotRow> rows = plot_of(result);
+  if (!rows.empty()) write_plot(path, rows);
 }
 #else
 void plot_curves(const std::string&, const ExperimentResult&) {}

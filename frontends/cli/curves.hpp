@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <string>
+#include <vector>
 
 #include "glint/engine/experiments/experiment.hpp"
+#include "glint/frontends/video/plot.hpp"
 
 namespace glint::cli {
 
@@ -10,7 +12,12 @@ namespace glint::cli {
 /// where undefined. Throws UsageError if the file cannot be written.
 void write_curves(const std::string& path, const ExperimentResult& result);
 
-/// Draws them: one panel a metric and level. Throws std::runtime_error if the file cannot be
+/// What is drawn of them: a row a metric, in it a panel for each level that has such curves.
+/// Expected numbers of targets have a logarithmic axis: from noise to the literal readings lie
+/// three decades.
+std::vector<PlotRow> plot_of(const ExperimentResult& result);
+
+/// Draws that. Throws std::runtime_error if the file cannot be
 /// written; does nothing without OpenCV.
 void plot_curves(const std::string& path, const ExperimentResult& result);
 

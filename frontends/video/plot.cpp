@@ -1,147 +1,113 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/frontends/video/plot.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
+
+#include "glint/frontends/video/plot_panel.hpp"
 
 namespace glint {
 namespace {
 
-constexpr int kPanelWidth = 440, kPanelHeight = 300;
-constexpr int kLeft = 56, kRight = 16, kTop = 30, kBottom = 46;  // margins about the axes [px]
-constexpr int kLegendRow = 24, kLegendColumn = 220;
-const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225), kPaper(255, 255, 255);
+constexpr int kPanelWidth = 440, kPanelHeight = 300, kMostColumns = 4;  // [px]
+constexpr int kMargin = 20, kKey = 26, kGap = 24, kLegendLine = 24;     // of the legends [px]
+const cv::Scalar kPaper(255, 255, 255);
 
-// Colours that colour-blind people can tell apart (Okabe and Ito), BGR.
-const std::array<cv::Scalar, 7> kColours{cv::Scalar(178, 114, 0), cv::Scalar(0, 94, 213),
-                                         cv::Scalar(115, 158, 0), cv::Scalar(167, 121, 204),
-                                         cv::Scalar(0, 159, 230), cv::Scalar(233, 180, 86),
-                                         cv::Scalar(66, 228, 240)};
+using Labels = std::vector<std::string>;
 
-void write_text(cv::Mat& image, const std::string& text, cv::Point at, double align) {
-  int baseline = 0;
-  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.42, 1, &baseline);
-  at.x -= static_cast<int>(align * size.width);
-  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.42, kInk, 1, cv::LINE_AA);
-}
-
-/// 1, 2 or 5 times a power of ten, so that about five steps make up `range`.
-double tick_step(double range) {
-  const double rough = range / 5, power = std::pow(10, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
-  }
-  return 10 * power;
-}
-
-struct Axis {
-  double end = 1, step = 0.2;  // from 0
-};
-
-Axis axis_for(std::span<const PlotLine> lines, std::vector<double> PlotLine::*values) {
-  double end = 0;
-  for (const PlotLine& line : lines) {
-    for (const double v : line.*values) end = v > end ? v : end;
-  }
-  if (end <= 0) return {};
-  const double step = tick_step(end);
-  return {step * std::ceil(end / step - 1e-9), step};
-}
-
-/// A panel's place in the image and its scales.
-struct Canvas {
-  cv::Mat image;  // the panel's part
-  Axis x, y;
-
-  cv::Point2d at(double px, double py) const {
-    const double width = kPanelWidth - kLeft - kRight, height = kPanelHeight - kTop - kBottom;
-    return {kLeft + width * px / x.end, kTop + height * (1 - py / y.end)};
-  }
-};
-
-void draw_axes(Canvas& canvas, const PlotPanel& panel) {
-  const auto tick_text = [](double value) { return fmt::format("{:.6g}", value); };
-  for (int i = 0; i * canvas.x.step <= canvas.x.end * (1 + 1e-9); ++i) {
-    const cv::Point2d p = canvas.at(i * canvas.x.step, 0);
-    cv::line(canvas.image, p, canvas.at(i * canvas.x.step, canvas.y.end), kGrid);
-    write_text(canvas.image, tick_text(i * canvas.x.step), p + cv::Point2d(0, 16), 0.5);
-  }
-  for (int i = 0; i * canvas.y.step <= canvas.y.end * (1 + 1e-9); ++i) {
-    const cv::Point2d p = canvas.at(0, i * canvas.y.step);
-    cv::line(canvas.image, p, canvas.at(canvas.x.end, i * canvas.y.step), kGrid);
-    write_text(canvas.image, tick_text(i * canvas.y.step), p + cv::Point2d(-6, 4), 1);
-  }
-  cv::line(canvas.image, canvas.at(0, 0), canvas.at(canvas.x.end, 0), kInk);
-  cv::line(canvas.image, canvas.at(0, 0), canvas.at(0, canvas.y.end), kInk);
-  write_text(canvas.image, panel.x_label, {(kLeft + kPanelWidth) / 2, kPanelHeight - 10}, 0.5);
-  const std::string title = panel.title + (panel.title.empty() ? "" : "   ") + panel.y_label;
-  write_text(canvas.image, title, {kLeft, kTop - 10}, 0);
-}
-
-void draw_line(Canvas& canvas, const PlotLine& line, const cv::Scalar& colour) {
-  constexpr int kShift = 4;  // OpenCV's fixed point, for smooth lines
-  const auto fixed = [](cv::Point2d p) {
-    return cv::Point(static_cast<int>(std::lround(p.x * (1 << kShift))),
-                     static_cast<int>(std::lround(p.y * (1 << kShift))));
-  };
-  for (std::size_t i = 1; i < line.y.size(); ++i) {
-    if (std::isnan(line.y[i - 1]) || std::isnan(line.y[i])) continue;
-    cv::line(canvas.image, fixed(canvas.at(line.x[i - 1], line.y[i - 1])),
-             fixed(canvas.at(line.x[i], line.y[i])), colour, 2, cv::LINE_AA, kShift);
-  }
-}
-
-std::vector<std::string> labels_of(std::span<const PlotPanel> panels) {
-  std::vector<std::string> labels;
-  for (const PlotPanel& panel : panels) {
+void add_labels(const PlotRow& row, Labels& labels) {
+  for (const PlotPanel& panel : row.panels) {
     for (const PlotLine& line : panel.lines) {
-      if (std::find(labels.begin(), labels.end(), line.label) == labels.end()) {
-        labels.push_back(line.label);
-      }
+      if (std::ranges::find(labels, line.label) == labels.end()) labels.push_back(line.label);
     }
   }
-  return labels;
 }
 
-const cv::Scalar& colour_of(std::size_t label) { return kColours[label % kColours.size()]; }
+/// A row's panels in lines of equal length.
+struct RowLines {
+  int lines, columns;
 
-void draw_legend(cv::Mat part, const std::vector<std::string>& labels) {
-  const auto to_a_row = static_cast<std::size_t>(std::max(1, part.cols / kLegendColumn));
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    const int x = static_cast<int>(i % to_a_row) * kLegendColumn + 20;
-    const int y = static_cast<int>(i / to_a_row) * kLegendRow + 10;
-    cv::line(part, {x, y}, {x + 24, y}, colour_of(i), 2, cv::LINE_AA);
-    write_text(part, labels[i], {x + 32, y + 4}, 0);
+  explicit RowLines(const PlotRow& row) {
+    const int panels = static_cast<int>(row.panels.size());
+    lines = (panels + kMostColumns - 1) / kMostColumns;
+    columns = lines > 0 ? (panels + lines - 1) / lines : 0;
+  }
+};
+
+/// Where an entry of a legend begins, from the legend's corner.
+struct LegendEntry {
+  std::string label;
+  cv::Point at;
+};
+
+int entry_width(const std::string& label) { return kKey + 8 + text_width(label); }
+
+std::vector<LegendEntry> legend_of(const PlotRow& row, int width) {
+  Labels labels;
+  add_labels(row, labels);
+  std::vector<LegendEntry> entries;
+  cv::Point at(kMargin, kLegendLine / 2);
+  for (const std::string& label : labels) {
+    const bool fits = at.x + entry_width(label) + kMargin <= width;
+    if (!fits && at.x > kMargin) at = {kMargin, at.y + kLegendLine};
+    entries.push_back({label, at});
+    at.x += entry_width(label) + kGap;
+  }
+  return entries;
+}
+
+int legend_height(const std::vector<LegendEntry>& legend) {
+  return legend.empty() ? 0 : legend.back().at.y + kLegendLine;
+}
+
+int width_of(std::span<const PlotRow> rows, const Labels& labels) {
+  int width = kPanelWidth;
+  for (const PlotRow& row : rows) width = std::max(width, RowLines(row).columns * kPanelWidth);
+  for (const std::string& label : labels) width = std::max(width, entry_width(label) + 2 * kMargin);
+  return width;
+}
+
+void draw_legend(cv::Mat part, const std::vector<LegendEntry>& legend, const Labels& labels) {
+  for (const LegendEntry& entry : legend) {
+    const auto label =
+        static_cast<std::size_t>(std::ranges::find(labels, entry.label) - labels.begin());
+    const cv::Point end = entry.at + cv::Point(kKey, 0);
+    draw_stroke(part, entry.at, end, plot_style(label));
+    write_text(part, entry.label, end + cv::Point(8, 4));
+  }
+}
+
+void draw_panels(cv::Mat part, const PlotRow& row, const Labels& labels) {
+  const PlotAxes axes = axes_of(row);
+  const int columns = RowLines(row).columns, panels = static_cast<int>(row.panels.size());
+  for (int i = 0; i < panels; ++i) {
+    const int left = part.cols * (i % columns) / columns;
+    const int right = part.cols * (i % columns + 1) / columns;
+    const cv::Rect place(left, i / columns * kPanelHeight, right - left, kPanelHeight);
+    draw_panel(part(place), row, row.panels[static_cast<std::size_t>(i)], axes, labels);
   }
 }
 
 }  // namespace
 
-void write_plot(const std::string& path, std::span<const PlotPanel> panels, int columns) {
-  const std::vector<std::string> labels = labels_of(panels);
-  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
-  const int width = columns * kPanelWidth, to_a_row = std::max(1, width / kLegendColumn);
-  const int legend = (static_cast<int>(labels.size()) + to_a_row - 1) / to_a_row * kLegendRow;
-  cv::Mat image(rows * kPanelHeight + legend, width, CV_8UC3, kPaper);
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    const PlotPanel& panel = panels[i];
-    const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
-    const cv::Rect place(column * kPanelWidth, row * kPanelHeight, kPanelWidth, kPanelHeight);
-    Canvas canvas{image(place), axis_for(panel.lines, &PlotLine::x),
-                  axis_for(panel.lines, &PlotLine::y)};
-    draw_axes(canvas, panel);
-    for (const PlotLine& line : panel.lines) {
-      const auto label = std::find(labels.begin(), labels.end(), line.label);
-      draw_line(canvas, line, colour_of(static_cast<std::size_t>(label - labels.begin())));
-    }
+void write_plot(const std::string& path, std::span<const PlotRow> rows) {
+  Labels labels;
+  for (const PlotRow& row : rows) add_labels(row, labels);
+  const int width = width_of(rows, labels);
+  int height = 0;
+  for (const PlotRow& row : rows) {
+    height += RowLines(row).lines * kPanelHeight + legend_height(legend_of(row, width));
   }
-  draw_legend(image.rowRange(rows * kPanelHeight, image.rows), labels);
+  cv::Mat image(std::max(height, 1), width, CV_8UC3, kPaper);
+  int top = 0;
+  for (const PlotRow& row : rows) {
+    const int legend_top = top + RowLines(row).lines * kPanelHeight;
+    const std::vector<LegendEntry> legend = legend_of(row, width);
+    draw_panels(image.rowRange(top, legend_top), row, labels);
+    top = legend_top + legend_height(legend);
+    draw_legend(image.rowRange(legend_top, top), legend, labels);
+  }
   if (!cv::imwrite(path, image)) {
     throw std::runtime_error(path + ": cannot be written; check the folder and its permissions");
   }
