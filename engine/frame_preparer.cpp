@@ -72,7 +72,16 @@ struct FramePreparer::State {
   State(const FramesConfig& c, const Device& d)
       : config(c), device(d), model(make_background(c, d)) {}
 
+  struct Grey {
+    std::shared_ptr<Image<float>> image;
+    bool masked;  ///< some pixel is NaN
+  };
+
   bool masks() const { return ignored.width() > 0; }
+  Grey take_grey(const RawPixels& raw);
+  BackgroundInput input_of(const RawPixels& raw, FrameView grey) const {
+    return {raw, grey, raw.channels == 1 && !config.reciprocal};
+  }
   void start(const RawPixels& raw);
   void check_like_first(const RawPixels& raw) const;
   void mask_background();
@@ -81,6 +90,16 @@ struct FramePreparer::State {
   void whiten(FrameView grey, double sigma, ImageView<float> whitened);
   void fill_masked(ImageView<float> grey) const;
 };
+
+FramePreparer::State::Grey FramePreparer::State::take_grey(const RawPixels& raw) {
+  check(raw);
+  if (background.width() == 0) start(raw);
+  check_like_first(raw);
+  Grey grey{pool.take(raw.width, raw.height), false};
+  device.run<ToGrey>({raw, config.reciprocal, static_cast<float>(config.reciprocal_floor),
+                      grey.image->view(), &grey.masked});
+  return grey;
+}
 
 void FramePreparer::State::start(const RawPixels& raw) {
   background = Image<float>(raw.width, raw.height);
@@ -185,17 +204,15 @@ void FramePreparer::set_mask(Image<std::uint8_t> ignored) {
   state_->model->rewrite();
 }
 
+void FramePreparer::learn(const RawPixels& raw) {
+  const auto grey = state_->take_grey(raw).image;
+  state_->model->learn(state_->input_of(raw, grey->view()));
+}
+
 Scan FramePreparer::prepare(const RawPixels& raw, std::int64_t frame, double time) {
   State& s = *state_;
-  check(raw);
-  if (s.frames == 0) s.start(raw);
-  s.check_like_first(raw);
-
-  const auto grey = s.pool.take(raw.width, raw.height);
-  bool masked = false;
-  s.device.run<ToGrey>({raw, s.config.reciprocal, static_cast<float>(s.config.reciprocal_floor),
-                        grey->view(), &masked});
-  const BackgroundInput input{raw, grey->view(), raw.channels == 1 && !s.config.reciprocal};
+  const auto [grey, masked] = s.take_grey(raw);
+  const BackgroundInput input = s.input_of(raw, grey->view());
   s.estimate_background(input);
 
   if (s.frames == 0) {

@@ -20,6 +20,7 @@ struct FramesConfig {
   double reciprocal_floor = 12;          ///< darker pixels count as this dark [grey levels]
   int background_frames = 90;            ///< span of the temporal median [frames]
   int background_stride = 6;             ///< from one of its samples to the next [frames]
+  int background_prime = 0;              ///< learned from this many first frames before them all
   int registered_frames = 31;            ///< samples of the registered median
   int registered_stride = 1;             ///< from one of them to the next [frames]
   int max_shift = 32;                    ///< largest movement between them [px]
@@ -35,8 +36,9 @@ struct FramesConfig {
 void describe(FieldList& list, FramesConfig& config);
 
 /// Turns a stream of raw frames into whitened ones: grey, background, noise sigma, z. Causal: a
-/// frame's background comes from the frames before it, and from a spatial median while there are
-/// none. Earlier Scans stay valid: their frames are reused only when nobody holds them any more.
+/// frame's background comes from the frames before it and those of learn(), and from a spatial
+/// median while there are none. Earlier Scans stay valid: their frames are reused only when nobody
+/// holds them any more.
 class FramePreparer {
  public:
   FramePreparer(const FramesConfig& config, const Device& device);
@@ -48,6 +50,9 @@ class FramePreparer {
   /// an empty image for none. prepare() throws if the size is not the frames'.
   void set_mask(Image<std::uint8_t> ignored);
 
+  /// Lets the background learn a frame that is not to be tracked yet, before the first prepare().
+  /// Throws as that does.
+  void learn(const RawPixels& raw);
   /// The next frame of the stream. Fills frame-related members of a Scan: `raw` is the grey frame,
   /// reciprocal if so configured, its NaN pixels replaced by the background (0 where there is
   /// none); `whitened` is z, 0 where masked (pixels that are no numbers, beyond ToGrey::kLargest,

@@ -16,6 +16,9 @@ void describe(FieldList& list, FramesConfig& c) {
        "span of the temporal median");
   list("background_stride", c.background_stride, 1, 10000, "frames",
        "from one sample of the temporal median to the next, once the span is reached");
+  list("background_prime", c.background_prime, 0, 100000, "frames",
+       "frames at the input's start that the background is learned from before the first is "
+       "tracked: targets that hardly move there then stand out from it; files only, 0 = none");
   list("registered_frames", c.registered_frames, 1, static_cast<int>(kMaxStack), "",
        "samples of the registered median");
   list("registered_stride", c.registered_stride, 1, 1000, "frames",

@@ -69,7 +69,7 @@ void RegisteredBackground::learn(const BackgroundInput& input) {
     samples_.emplace_back();
     moved_.emplace_back(input.grey.width, input.grey.height);
   }
-  std::swap(samples_[next_], present_);
+  build(input.grey, samples_[next_]);
   next_ = (next_ + 1) % slots_;
 }
 

@@ -24,6 +24,18 @@ struct Lane {
 
 }  // namespace
 
+void prime_background(FramePreparer& preparer, Source& source, int frames) {
+  try {
+    for (int i = 0; i < frames; ++i) {
+      const auto frame = source.next();
+      if (!frame) return;
+      preparer.learn(frame->pixels);
+    }
+  } catch (const std::exception&) {
+    return;
+  }
+}
+
 struct Scheduler::State {
   State(const Device& on, FramePreparer with, const PointsConfig& points)
       : device(on), preparer(std::move(with)), finder(points, on) {}

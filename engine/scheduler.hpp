@@ -31,6 +31,10 @@ class Source {
   virtual double frame_rate() const { return 1; }  ///< [1/s]
 };
 
+/// Lets the background learn the source's next frames, at most `frames`, before any is prepared.
+/// Stops at a frame that is damaged: the run that comes to it says so.
+void prime_background(FramePreparer& preparer, Source& source, int frames);
+
 /// What a finished scan looks like to sinks (writers, progress, overlay). Trackers may already work
 /// on later scans, so the log itself is not to be seen here, but a copy of what each tracker
 /// reported of this scan when it had it: by track id, without later revisions.

@@ -30,9 +30,10 @@ constexpr std::array kExperiments{
 
 std::span<const ExperimentEntry> all_experiments() { return kExperiments; }
 
-const ExperimentEntry& find_experiment(std::string_view name) {
+const ExperimentEntry& find_experiment(std::string_view name,
+                                       std::span<const ExperimentEntry> list) {
   std::string known;
-  for (const ExperimentEntry& experiment : kExperiments) {
+  for (const ExperimentEntry& experiment : list) {
     if (experiment.name == name) return experiment;
     known += (known.empty() ? "" : ", ") + std::string(experiment.name);
   }

@@ -49,6 +49,7 @@ struct ExperimentResult {
 struct ExperimentOptions {
   int runs = 0;  ///< 0 = the experiment's own number
   std::uint64_t seed = 1;
+  std::string data;  ///< folder of recorded data, for experiments that need one
   /// Called with runs done and runs in all, from any thread, one call at a time.
   std::function<void(int done, int total)> progress;
 };
@@ -60,10 +61,11 @@ struct ExperimentEntry {
   ExperimentResult (*run)(const ExperimentOptions& options, Workers& workers);
 };
 
-/// The one list of experiments.
+/// The one list of experiments that need no recorded data.
 std::span<const ExperimentEntry> all_experiments();
-/// Throws ConfigError that lists the names if there is no such experiment.
-const ExperimentEntry& find_experiment(std::string_view name);
+/// Throws ConfigError that lists the names if there is no such experiment in `list`.
+const ExperimentEntry& find_experiment(std::string_view name,
+                                       std::span<const ExperimentEntry> list = all_experiments());
 
 /// Runs it. The result depends on runs and seed alone, never on the number of workers.
 /// Throws ConfigError for less than no runs.

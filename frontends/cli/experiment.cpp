@@ -13,6 +13,7 @@
 
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/curves.hpp"
+#include "glint/frontends/experiments/recorded.hpp"
 
 namespace glint::cli {
 namespace {
@@ -86,12 +87,22 @@ std::filesystem::path output_folder(const std::string& path) {
   return path;
 }
 
+/// Those of the engine, then those on recorded data.
+std::vector<ExperimentEntry> experiments() {
+  std::vector<ExperimentEntry> list;
+  for (const auto& part : {all_experiments(), recorded_experiments()}) {
+    list.insert(list.end(), part.begin(), part.end());
+  }
+  return list;
+}
+
 void show_progress(int done, int total) {
   fmt::print(stderr, "\r{} of {} runs{}", done, total, done == total ? "\n" : "");
 }
 
 void run(const Request& request) {
-  const ExperimentEntry& entry = find_experiment(request.name);
+  const std::vector<ExperimentEntry> known = experiments();
+  const ExperimentEntry& entry = find_experiment(request.name, known);
   const std::filesystem::path folder =
       request.out.empty() ? std::filesystem::path() : output_folder(request.out);
   ExperimentOptions options = request.options;
@@ -112,8 +123,8 @@ void run(const Request& request) {
 
 std::string names() {
   std::string list;
-  for (const ExperimentEntry& e : all_experiments()) {
-    list += fmt::format("  {:<12}{} ({} runs)\n", e.name, e.summary, e.runs);
+  for (const ExperimentEntry& e : experiments()) {
+    list += fmt::format("  {:<14}{} ({} runs)\n", e.name, e.summary, e.runs);
   }
   return list;
 }
@@ -130,6 +141,8 @@ void add_experiment(CLI::App& app) {
   command->add_option("--seed", request->options.seed, "Seed of the first run")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
+  command->add_option("--data", request->options.data,
+                      "Folder of recorded data, where one is needed");
   command->add_option("--out", request->out, "Folder for the curves: CSV and a picture");
   command->add_option("--threads", request->threads, "Threads; 0 = all, the result is the same")
       ->check(CLI::Range(0, 4096));

@@ -98,6 +98,8 @@ FramePreparer make_preparer(const FrameJob& job) {
   FramePreparer preparer(job.config<FramesConfig>("frames"), job.device);
   const std::string& mask = job.run().mask;
   if (!mask.empty()) preparer.set_mask(read_mask(mask, job.device));
+  const int ahead = job.config<FramesConfig>("frames").background_prime;
+  if (ahead > 0) prime_background(preparer, *open_frames(job), ahead);
   return preparer;
 }
 

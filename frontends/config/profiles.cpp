@@ -31,7 +31,7 @@ confirm_hits = 5
 [trackers.mm-phd]
 snr_low = 3.5
 birth_particles = 8000
-confirm_hits = 4
+target_particles = 4000
 
 [trackers.smc-phd]
 snr_low = 3.5

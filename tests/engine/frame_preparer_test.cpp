@@ -43,6 +43,33 @@ TEST(FramePreparer, ShowsAMovingTargetFromTheFirstFramesOn) {
   }
 }
 
+// A target that stands still for the first frames is background until it moves, unless the
+// background was learned ahead.
+TEST(FramePreparer, LearnsTheBackgroundAhead) {
+  const auto z_of_a_waiting_target = [](const char* background, int learned) {
+    FramesConfig config;
+    config.structure = false;
+    config.background = background;
+    FramePreparer preparer(config, Device::tbb(1));
+    for (int t = 20; t < 20 + learned; ++t) preparer.learn(raw(Scene{}.at(t)));
+    Scan scan;
+    for (int t = 0; t < 10; ++t) scan = preparer.prepare(raw(Scene{}.at(5)), t, t);
+    return scan.whitened.view()(static_cast<int>(std::lround(Scene{}.target_x(5))), 30);
+  };
+  for (const auto* background : {"temporal", "registered"}) {
+    EXPECT_LT(z_of_a_waiting_target(background, 0), 1) << background;
+    EXPECT_GT(z_of_a_waiting_target(background, 30), 5) << background;
+  }
+}
+
+TEST(FramePreparer, RefusesToLearnFramesOfAnotherSize) {
+  FramePreparer preparer({}, Device::tbb(1));
+  const std::vector<float> pixels(64, 1.0F);
+  preparer.learn(raw(pixels, 8, 8));
+  EXPECT_THROW(preparer.learn(raw(pixels, 16, 4)), std::invalid_argument);
+  EXPECT_THROW(preparer.prepare(raw(pixels, 16, 4), 0, 0), std::invalid_argument);
+}
+
 TEST(FramePreparer, AStaticSceneLeavesNothing) {
   Scene scene;
   scene.amplitude = 0, scene.noise = 0;
