@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include "glint/engine/filters/gaussian.hpp"
 
@@ -15,14 +16,16 @@ namespace glint {
 double pda_weights(std::span<const double> log_ratio, double miss, std::span<double> beta);
 
 /// Moments of the mixture over the associations: Kalman updates of `predicted` with each of
-/// `positions`, and none. `beta` as pda_weights() gives it for them.
-template <int N>
-Gaussian<N> pda_update(const Gaussian<N>& predicted, const PositionPrediction<N>& expected,
-                       std::span<const Eigen::Vector2d> positions, std::span<const double> beta) {
-  Eigen::Vector2d combined = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Eigen::Vector2d innovation = positions[i] - expected.mean;
+/// `points`, and none. `beta` as pda_weights() gives it for them.
+template <int N, int M, int Azimuth>
+Gaussian<N> pda_update(const Gaussian<N>& predicted,
+                       const MeasurementPrediction<N, M, Azimuth>& expected,
+                       std::type_identity_t<std::span<const Eigen::Matrix<double, M, 1>>> points,
+                       std::span<const double> beta) {
+  Eigen::Matrix<double, M, 1> combined = Eigen::Matrix<double, M, 1>::Zero();
+  Eigen::Matrix<double, M, M> spread = Eigen::Matrix<double, M, M>::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Matrix<double, M, 1> innovation = expected.innovation(points[i]);
     combined += beta[i + 1] * innovation;
     spread += beta[i + 1] * innovation * innovation.transpose();
   }

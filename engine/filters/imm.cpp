@@ -8,28 +8,29 @@
 #include <stdexcept>
 #include <utility>
 
+#include "glint/engine/text.hpp"
+
 namespace glint {
 namespace {
 
 using Weights = std::array<double, ModeProbability::kCapacity>;
 
-template <class To>
-Belief<To> seen_as(const AnyMode& mode, const Belief<To>& own) {
-  return std::visit(
-      [&]<class From>(const Mode<From>& from) { return embed<To, From>(from.belief, own); }, mode);
+template <int Axes, int N>
+Gaussian<N> seen_as(const ModeOf<Axes>& mode, const Gaussian<N>& own) {
+  return std::visit([&](const auto& from) { return embed<Axes>(from.belief, own); }, mode);
 }
 
-/// Mean and covariance of the mixture of `modes`, in the parts of the model `To`.
-template <class To>
-Belief<To> mixture(const std::vector<AnyMode>& modes, const Weights& weights,
-                   const Belief<To>& own) {
-  Belief<To> result;
+/// Mean and covariance of the mixture of `modes`, in the parts that `own` has.
+template <int Axes, int N>
+Gaussian<N> mixture(const std::vector<ModeOf<Axes>>& modes, const Weights& weights,
+                    const Gaussian<N>& own) {
+  Gaussian<N> result;
   result.mean.setZero(), result.covariance.setZero();
   for (std::size_t i = 0; i < modes.size(); ++i) {
-    result.mean += weights[i] * seen_as<To>(modes[i], own).mean;
+    result.mean += weights[i] * seen_as<Axes>(modes[i], own).mean;
   }
   for (std::size_t i = 0; i < modes.size(); ++i) {
-    const Belief<To> part = seen_as<To>(modes[i], own);
+    const Gaussian<N> part = seen_as<Axes>(modes[i], own);
     const auto off = (part.mean - result.mean).eval();
     result.covariance += weights[i] * (part.covariance + off * off.transpose());
   }
@@ -39,7 +40,25 @@ Belief<To> mixture(const std::vector<AnyMode>& modes, const Weights& weights,
 
 }  // namespace
 
-Imm::Imm(std::vector<AnyMode> modes, const Switching& switching, const ModeProbability& probability)
+std::vector<std::string> normalise_rows(Switching& switching) {
+  if (!(switching.minCoeff() >= 0) || !(switching.rowwise().sum().minCoeff() > 0)) {
+    throw std::invalid_argument("switching probabilities must be positive, and no row zero");
+  }
+  std::vector<std::string> notes;
+  for (Eigen::Index i = 0; i < switching.rows(); ++i) {
+    const double sum = switching.row(i).sum();
+    if (std::abs(sum - 1) > 1e-9) {
+      notes.push_back("row " + std::to_string(i + 1) + " of the switching probabilities sums to " +
+                      number_text(sum) + " and was scaled to 1");
+    }
+    switching.row(i) /= sum;
+  }
+  return notes;
+}
+
+template <int Axes>
+ImmOf<Axes>::ImmOf(std::vector<ModeOf<Axes>> modes, const Switching& switching,
+                   const ModeProbability& probability)
     : modes_(std::move(modes)), switching_(switching), probability_(probability) {
   const auto count = static_cast<Eigen::Index>(modes_.size());
   if (count == 0 || modes_.size() > ModeProbability::kCapacity || switching.rows() != count ||
@@ -47,13 +66,11 @@ Imm::Imm(std::vector<AnyMode> modes, const Switching& switching, const ModeProba
     throw std::invalid_argument(
         "a bank needs one row, column and probability for each of its models");
   }
-  if (!(switching.minCoeff() >= 0) || !(switching.rowwise().sum().minCoeff() > 0)) {
-    throw std::invalid_argument("switching probabilities must be positive, and no row zero");
-  }
-  for (Eigen::Index i = 0; i < count; ++i) switching_.row(i) /= switching_.row(i).sum();
+  normalise_rows(switching_);
 }
 
-void Imm::mix() {
+template <int Axes>
+void ImmOf<Axes>::mix() {
   before_ = modes_;
   const ModeProbability from = probability_;
   for (std::size_t j = 0; j < modes_.size(); ++j) {
@@ -66,19 +83,20 @@ void Imm::mix() {
     probability_[j] = sum;
     if (sum == 0) continue;  // a model that nothing leads to goes on as it was
     for (double& w : weights) w /= sum;
-    std::visit(
-        [&]<class To>(Mode<To>& to) { to.belief = mixture<To>(before_, weights, to.belief); },
-        modes_[j]);
+    std::visit([&](auto& to) { to.belief = mixture<Axes>(before_, weights, to.belief); },
+               modes_[j]);
   }
 }
 
-void Imm::predict(double step) {
-  for (AnyMode& any : modes_) {
+template <int Axes>
+void ImmOf<Axes>::predict(double step) {
+  for (ModeOf<Axes>& any : modes_) {
     std::visit([step](auto& mode) { glint::predict(mode.model, mode.belief, step); }, any);
   }
 }
 
-void Imm::weigh(std::span<const double> log_likelihood) {
+template <int Axes>
+void ImmOf<Axes>::weigh(std::span<const double> log_likelihood) {
   const double largest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
   if (!std::isfinite(largest)) return;
   double sum = 0;
@@ -92,10 +110,14 @@ void Imm::weigh(std::span<const double> log_likelihood) {
   probability_ = next;
 }
 
-Gaussian<4> Imm::combined() const {
+template <int Axes>
+Gaussian<2 * Axes> ImmOf<Axes>::combined() const {
   Weights weights{};
   std::copy(probability_.begin(), probability_.end(), weights.begin());
-  return mixture<ConstantVelocity>(modes_, weights, {});
+  return mixture<Axes>(modes_, weights, Gaussian<2 * Axes>{});
 }
+
+template class ImmOf<2>;
+template class ImmOf<3>;
 
 }  // namespace glint

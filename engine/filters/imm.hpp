@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -10,46 +11,62 @@
 namespace glint {
 
 /// A motion model and what it believes.
-template <class Model>
+template <class Model, int Axes = 2>
 struct Mode {
   Model model;
-  Belief<Model> belief;
+  Belief<Model, Axes> belief;
 };
 
 /// The one list of motion models that a bank may be made of.
-using AnyMode = std::variant<Mode<ConstantVelocity>, Mode<ConstantAcceleration>>;
+template <int Axes>
+using ModeOf = std::variant<Mode<ConstantVelocity, Axes>, Mode<ConstantAcceleration, Axes>,
+                            Mode<NearlyConstantVelocity, Axes>, Mode<WienerAcceleration, Axes>,
+                            Mode<Singer, Axes>, Mode<CoordinatedTurn, Axes>>;
+using AnyMode = ModeOf<2>;
+
+/// Probability of a step from the row's model to the column's.
+using Switching = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                ModeProbability::kCapacity, ModeProbability::kCapacity>;
+
+/// Scales each row to sum to 1, since a chain that leaks biases every estimate that is mixed by it
+/// (P-PMHT (33) sums to 0.999). Returns a sentence for each row that was off by more than rounding.
+/// Throws std::invalid_argument if a number is negative or a row is zero.
+std::vector<std::string> normalise_rows(Switching& switching);
 
 /// A bank of Kalman filters, one a motion model, between which a target switches as a Markov chain
 /// (Blom and Bar-Shalom 1988). One cycle is mix(), predict(), an update of every mode's belief by
-/// the caller, and weigh(). Models may be of unlike dimension.
-class Imm {
+/// the caller, and weigh(). Models may be of unlike dimension. Copies of banks of as many models,
+/// and a cycle, allocate nothing.
+template <int Axes>
+class ImmOf {
  public:
-  using Switching = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
-                                  ModeProbability::kCapacity, ModeProbability::kCapacity>;
-
-  /// `switching`: probability of a step from the row's model to the column's; rows are normalised.
-  /// `probability`: of each model at the start. Throws std::invalid_argument if the sizes are not
-  /// those of `modes`, there are none or more than ModeProbability::kCapacity, or a number is
-  /// negative or a row is zero.
-  Imm(std::vector<AnyMode> modes, const Switching& switching, const ModeProbability& probability);
+  /// `switching`: rows are normalised. `probability`: of each model at the start. Throws
+  /// std::invalid_argument if the sizes are not those of `modes`, there are none or more than
+  /// ModeProbability::kCapacity, or as normalise_rows() does.
+  ImmOf(std::vector<ModeOf<Axes>> modes, const Switching& switching,
+        const ModeProbability& probability);
 
   /// Each model starts from a mixture of what all believed, by how likely each leads to it; the
   /// probabilities become the predicted ones.
   void mix();
-  void predict(double step);  ///< [frames]
+  void predict(double step);
   /// Models gain probability by how well they predicted: `log_likelihood`, one a model.
   void weigh(std::span<const double> log_likelihood);
 
-  std::vector<AnyMode>& modes() { return modes_; }
-  const std::vector<AnyMode>& modes() const { return modes_; }
+  std::vector<ModeOf<Axes>>& modes() { return modes_; }
+  const std::vector<ModeOf<Axes>>& modes() const { return modes_; }
   const ModeProbability& probability() const { return probability_; }
-  /// Position and velocity [x vx y vy], moments of the mixture.
-  Gaussian<4> combined() const;
+  /// Position and velocity [x vx y vy (z vz)], moments of the mixture.
+  Gaussian<2 * Axes> combined() const;
 
  private:
-  std::vector<AnyMode> modes_, before_;  // before_ is here so that mixing allocates nothing
+  std::vector<ModeOf<Axes>> modes_, before_;  // before_ is here so that mixing allocates nothing
   Switching switching_;
   ModeProbability probability_;
 };
+
+extern template class ImmOf<2>;
+extern template class ImmOf<3>;
+using Imm = ImmOf<2>;
 
 }  // namespace glint

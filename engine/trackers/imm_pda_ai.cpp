@@ -139,7 +139,7 @@ ImmPdaAi::Track ImmPdaAi::track_at(const Start& at, double amplitude, std::int64
   const double p = noise_(0, 0), v = config_.velocity_sd * config_.velocity_sd;
   slow.belief.covariance.diagonal() << p, v, p, v;
   Mode<ConstantVelocity> fast{{config_.noise_fast}, slow.belief};
-  Imm::Switching switching(2, 2);
+  Switching switching(2, 2);
   const double stay = config_.stay;
   switching << stay, 1 - stay, 1 - stay, stay;
   return {next_id_++, frame, frame, Imm({slow, fast}, switching, {0.5, 0.5}),
