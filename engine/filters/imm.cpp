@@ -46,10 +46,10 @@ std::vector<std::string> normalise_rows(Switching& switching) {
   }
   std::vector<std::string> notes;
   for (Eigen::Index i = 0; i < switching.rows(); ++i) {
-    const double sum = switching.row(i).sum();
-    if (std::abs(sum - 1) > 1e-9) {
+    const double sum = switching.row(i).sum(), rounded = std::round(sum * 1e6) / 1e6;
+    if (rounded != 1) {
       notes.push_back("row " + std::to_string(i + 1) + " of the switching probabilities sums to " +
-                      number_text(sum) + " and was scaled to 1");
+                      number_text(rounded) + " and was scaled to 1");
     }
     switching.row(i) /= sum;
   }

@@ -144,7 +144,7 @@ TEST(Measurement, ChordsSeeHowRangeGrowsWithTheSpreadAcross) {
   state.covariance.diagonal() << 1, 1, 400, 1;
   const auto ukf = predict_measurement(state, RangeAzimuth{}, Linearisation::chords);
   // E range = 100 + 400 / (2 x 100) to second order; its variance 1 + 400^2 / (2 x 100^2).
-  EXPECT_NEAR(ukf.mean(0), 102, 0.05);
+  EXPECT_NEAR(ukf.mean(0), 102, 0.1);
   EXPECT_NEAR(ukf.covariance(0, 0) - 1, 1 + 8, 0.6);
   const auto ekf = predict_measurement(state, RangeAzimuth{}, Linearisation::tangent);
   EXPECT_NEAR(ekf.mean(0), 100, 1e-12);
