@@ -31,7 +31,8 @@ HPmhtConfig h_pmht() {
   config.intensity = "rpim";
   config.batch = 5, config.iterations = 20;
   config.estimate_extent = true, config.extent = 16;
-  config.process_noise = 1;
+  config.process_noise = 1, config.velocity_variance = 1;
+  config.sensor_area = 100;
   config.initiate = false;
   config.halt_count = 0;
   return config;

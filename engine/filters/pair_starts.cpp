@@ -3,29 +3,57 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
+
+#include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
 
 namespace glint {
 
-std::span<const PairStart> PairStarts::find(std::span<const Point> before,
-                                            std::span<const Point> now, double reach) {
-  pairs_.clear();
-  // Rows of pixels are in order, rows of sub-pixel maxima only within a pixel.
-  const double rows = reach + 1;
+void pair_points(std::span<const Point> before, std::span<const Point> now, double reach,
+                 std::vector<PairStart>& pairs) {
+  pairs.clear();
+  // Pixels come row by row, sub-pixel maxima up to half a pixel off.
+  const double above = reach + 2, below = reach + 1;
   std::size_t first = 0;
   for (const Point& b : now) {
-    while (first < before.size() && before[first].y < b.y - rows - 1) ++first;
-    for (std::size_t i = first; i < before.size() && before[i].y <= b.y + rows; ++i) {
+    while (first < before.size() && before[first].y < b.y - above) ++first;
+    for (std::size_t i = first; i < before.size() && before[i].y <= b.y + below; ++i) {
       const Point& a = before[i];
       const double dx = b.x - a.x, dy = b.y - a.y;
       if (dx * dx + dy * dy > reach * reach) continue;
-      pairs_.push_back({b.x, b.y, a.x, a.y, static_cast<double>(a.amplitude) + b.amplitude});
+      pairs.push_back({b.x, b.y, a.x, a.y, static_cast<double>(a.amplitude) + b.amplitude});
     }
   }
-  std::sort(pairs_.begin(), pairs_.end(), [](const PairStart& a, const PairStart& b) {
+  std::sort(pairs.begin(), pairs.end(), [](const PairStart& a, const PairStart& b) {
     return std::tie(b.score, a.y, a.x, a.before_y, a.before_x) <
            std::tie(a.score, b.y, b.x, b.before_y, b.before_x);
   });
+}
+
+std::span<const PairStart> PairStarts::find(FrameView whitened, double reach) {
+  std::swap(before_, now_);
+  find_points(whitened);
+  pair_points(before_, now_, reach, pairs_);
   return pairs_;
+}
+
+void PairStarts::find_points(FrameView whitened) {
+  if (whitened.empty()) return now_.clear();
+  if (ratio_.width() != whitened.width || ratio_.height() != whitened.height) {
+    ratio_ = Image<float>(whitened.width, whitened.height);
+  }
+  PixelLikelihood::Args likelihood;
+  likelihood.frame = whitened;
+  likelihood.spread = spread_;
+  likelihood.intensity = static_cast<float>(intensity_);
+  likelihood.map = ratio_.view();
+  device_.run<PixelLikelihood>(likelihood);
+  FindPoints::Args maxima;
+  maxima.map = ratio_.view();
+  maxima.threshold = static_cast<float>(threshold_);
+  maxima.points = &now_;
+  maxima.workspace = &workspace_;
+  device_.run<FindPoints>(maxima);
 }
 
 }  // namespace glint

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "glint/kernels/core/device.hpp"
+#include "glint/kernels/core/frame.hpp"
+#include "glint/kernels/core/point_spread.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
 
 namespace glint {
@@ -13,18 +14,35 @@ namespace glint {
 struct PairStart {
   double x = 0, y = 0;                ///< in the later frame [px]
   double before_x = 0, before_y = 0;  ///< in the earlier one [px]
-  double score = 0;                   ///< sum of the two amplitudes
+  double score = 0;                   ///< sum of the two log likelihood ratios
 };
 
-/// Pairs points of two successive frames that one target could have caused.
+/// All pairs of points at most `reach` [px] apart, by falling score (the sum of the amplitudes);
+/// a point comes in as many as it has partners. Points are row by row, as FindPoints has them.
+void pair_points(std::span<const Point> before, std::span<const Point> now, double reach,
+                 std::vector<PairStart>& pairs);
+
+/// Finds new targets: local maxima of the log likelihood ratio of a target of a given brightness,
+/// in two successive frames.
 class PairStarts {
  public:
-  /// All pairs at most `reach` [px] apart, by falling score; each point comes in many. Points are
-  /// row by row. Valid until the next call.
-  std::span<const PairStart> find(std::span<const Point> before, std::span<const Point> now,
-                                  double reach);
+  /// `intensity` [noise sigmas] of the whole target; maxima below `threshold` do not count.
+  PairStarts(const PointSpread& spread, double intensity, double threshold, const Device& device)
+      : spread_(spread), intensity_(intensity), threshold_(threshold), device_(device) {}
+
+  /// Pairs of this frame with the one of the last call, by falling score. Valid until the next
+  /// call. An empty frame has no points.
+  std::span<const PairStart> find(FrameView whitened, double reach);
 
  private:
+  void find_points(FrameView whitened);
+
+  PointSpread spread_;
+  double intensity_, threshold_;
+  Device device_;
+  Image<float> ratio_;
+  std::vector<Point> before_, now_;
+  PointWorkspace workspace_;
   std::vector<PairStart> pairs_;
 };
 

@@ -27,22 +27,22 @@ struct HPmhtConfig {
   double extent = 0;                         ///< [px^2]; 0 = auto, psf_sigma^2 + 0.25
   double extent_low = 1, extent_high = 400;  ///< [px^2]
   // How it moves.
-  double process_noise = 0.02;  ///< [px^2/frame^3]
+  double process_noise = 0.2;  ///< [px^2/frame^3]
   bool estimate_process = false;
-  double position_variance = 1;  ///< [px^2]
-  double velocity_variance = 1;  ///< [px^2/frame^2]
-  double speed_max = 4;          ///< [px/frame]
-  double sensor_area = 100;      ///< [px^2]
+  double position_variance = 1;    ///< [px^2]
+  double velocity_variance = 0.5;  ///< [px^2/frame^2]
+  double speed_max = 4;            ///< [px/frame]
+  double sensor_area = 20;         ///< [px^2]
   // Expectation maximisation.
   int batch = 6;  ///< scans
-  int iterations = 8;
+  int iterations = 3;
   // How tracks come and go.
   bool initiate = true;
   double candidate_ratio = -0.5;
   int candidates_max = 200;  ///< a frame
-  double separation = 3;     ///< [px]
-  double duplicate = 2;      ///< [px]
-  double confirm_count = 3;
+  double separation = 4;     ///< [px]
+  double duplicate = 3;      ///< [px]
+  double confirm_count = 3.3;
   int confirm_frames = 5;
   double halt_count = 1.5;
   int halt_frames = 3;
@@ -83,7 +83,6 @@ class HPmht : public Tracker {
   BatchTarget target_at(const Start& at, std::size_t first, double proportion) const;
   void add_starts(TrackLog& log);
   void add_candidates(const Scan& scan);
-  void find_points(FrameView whitened);
   bool crowded(double x, double y) const;
   bool follow_one_target(std::size_t older, std::size_t younger) const;
   void end_duplicates();
@@ -98,7 +97,6 @@ class HPmht : public Tracker {
 
   HPmhtConfig config_;
   Device device_;
-  PointSpread spread_;
   HPmhtBatch batch_;
   std::vector<WindowScan> window_;  // oldest first
   std::vector<BatchScan> scans_;    // the same scans as the batch sees them
@@ -106,9 +104,6 @@ class HPmht : public Tracker {
   std::vector<Life> lives_;  // one a target; the older first
   std::vector<Start> starts_;
   std::int64_t next_id_ = 1;
-  Image<float> ratio_;
-  std::vector<Point> points_before_, points_;
-  PointWorkspace points_workspace_;
   PairStarts pairs_;
   std::vector<float> quantile_workspace_;
   std::int64_t last_frame_ = -1;
