@@ -14,9 +14,10 @@ std::vector<float> energies(const PointSpread& spread, int length) {
   const auto weights = spread.centred_weights();
   for (int x = 0; x < length; ++x) {
     double sum = 0;
-    for (int k = -spread.half_width; k <= spread.half_width; ++k) {
-      const double w = weights[static_cast<std::size_t>(k + spread.half_width)];
-      if (x + k >= 0 && x + k < length) sum += w * w;
+    int pixel = x - spread.half_width;
+    for (const double w : weights) {
+      if (pixel >= 0 && pixel < length) sum += w * w;
+      ++pixel;
     }
     energy.push_back(static_cast<float>(sum));
   }

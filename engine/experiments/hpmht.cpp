@@ -64,6 +64,7 @@ ExperimentRow row_of(const Case& c, const char* metric, const std::vector<double
 
 std::vector<double> column(const std::vector<AircraftRun>& runs, double AircraftRun::*value) {
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const AircraftRun& run : runs) values.push_back(run.*value);
   return values;
 }

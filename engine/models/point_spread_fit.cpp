@@ -30,7 +30,7 @@ double level_around(FrameView image, int cx, int cy) {
 
 /// Energy that a Gaussian of this width explains at a point: A^2 / B, P-PHD (13) maximised over I.
 double explained(FrameView image, const Point& at, const PointSpread& spread) {
-  const int cx = static_cast<int>(at.x + 0.5f), cy = static_cast<int>(at.y + 0.5f);
+  const int cx = static_cast<int>(std::lround(at.x)), cy = static_cast<int>(std::lround(at.y));
   const double level = level_around(image, cx, cy);
   double correlation = 0, energy = 0;
   for (int j = -kHalf; j <= kHalf; ++j) {

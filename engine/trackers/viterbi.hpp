@@ -48,7 +48,7 @@ class Viterbi : public Tracker {
   void stitch(const WindowPath& path, TrackLog& log);
   double distance(const Track& track, const WindowPath& path) const;
   Track& owner(const WindowPath& path);
-  TrackPoint point_of(const WindowPath& path, std::size_t stage, std::int64_t id) const;
+  TrackPoint point_of(const WindowPath& path, std::size_t k, std::int64_t id) const;
   void forget(TrackLog& log);
 
   ViterbiConfig config_;
