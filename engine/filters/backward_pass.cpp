@@ -40,31 +40,33 @@ bool BackwardPass::meets_another(const Past& past, const Peak& estimate, std::ui
   });
 }
 
-void BackwardPass::trace(const KnownTargets& targets, std::size_t t, TrackLog& log) {
+void BackwardPass::trace(const KnownTargets& targets, std::size_t t, std::int64_t now,
+                         TrackLog& log) {
   const KnownTarget& target = targets.targets()[t];
   clouds_.clear();
-  clouds_.add(targets.starts(), t);
+  clouds_.add(targets.clouds(), t);
   clouds_.reverse_velocities();
-  std::int64_t frame = target.detected;
+  std::int64_t frame = now;
   double existence = 1;
   int misses = 0;
   std::vector<TrackPoint> missed;  // stand only if the target is seen again before them
   for (std::size_t back = 1; back <= past_.size(); ++back) {
-    const Past* past = &past_[(next_ + past_.size() - back) % past_.size()];
-    if (past->at.frame >= target.detected) continue;
-    clouds_.predict(past->at.frame, static_cast<double>(frame - past->at.frame));
-    frame = past->at.frame;
-    const TargetUpdate& update = clouds_.update(past->z, frame)[0];
-    const double odds = config_.survival * existence * update.mean_ratio;
-    existence = odds / (1 + odds);
-    misses = existence >= config_.existence ? 0 : misses + 1;
-    if (misses >= config_.halt_misses || update.mean_ratio <= 0) return;
-    if (meets_another(*past, update.estimate, target.id)) return;
-    TrackPoint point = point_of(update.estimate, modes_, past->at);
-    point.vx = -point.vx, point.vy = -point.vy;
-    point.track_id = target.id, point.status = TrackStatus::confirmed;
-    point.existence = existence;
-    missed.push_back(point);
+    const Past& past = past_[(next_ + past_.size() - back) % past_.size()];
+    clouds_.predict(past.at.frame, static_cast<double>(frame - past.at.frame));
+    frame = past.at.frame;
+    const TargetUpdate& update = clouds_.update(past.z, frame)[0];
+    if (update.mean_ratio <= 0) return;
+    if (frame < target.detected) {
+      const double odds = config_.survival * existence * update.mean_ratio;
+      existence = odds / (1 + odds);
+      misses = existence >= config_.existence ? 0 : misses + 1;
+      if (misses >= config_.halt_misses || meets_another(past, update.estimate, target.id)) return;
+      TrackPoint point = point_of(update.estimate, modes_, past.at);
+      point.vx = -point.vx, point.vy = -point.vy;
+      point.track_id = target.id, point.status = TrackStatus::confirmed;
+      point.existence = existence;
+      missed.push_back(point);
+    }
     if (misses == 0) {
       for (const TrackPoint& p : missed) log.revise(p);
       missed.clear();

@@ -7,8 +7,9 @@
 
 namespace glint {
 
-/// Follows a newly confirmed target from its cloud at detection back to where it came from.
-/// P-PHD (25)-(27), with F^-1 and the Markov chain reversed.
+/// Follows a newly confirmed target back to where it came from. P-PHD (25)-(27), with F^-1 and the
+/// Markov chain reversed; from the cloud at confirmation, not at detection: that one was chosen for
+/// fitting the very frames before detection that are to be judged.
 class BackwardPass {
  public:
   /// Goes at most `frames` back; 0 = never.
@@ -18,9 +19,10 @@ class BackwardPass {
 
   /// Takes a frame and where the targets were in it, after the targets have been followed.
   void remember(const Frame& z, const StepTime& at, std::span<const KnownTarget> targets);
-  /// Adds the points before detection of target `t` to the revised record. Ends where the target is
-  /// missed as often as halts a track, or comes upon another track.
-  void trace(const KnownTargets& targets, std::size_t t, TrackLog& log);
+  /// Adds the points before detection of target `t`, confirmed in frame `now`, to the revised
+  /// record. Ends where the target is missed as often as halts a track, or comes upon another
+  /// track.
+  void trace(const KnownTargets& targets, std::size_t t, std::int64_t now, TrackLog& log);
 
  private:
   struct Position {

@@ -18,13 +18,7 @@ KnownTargets::KnownTargets(const KnownTargetsConfig& config, const MotionBank& b
                            const Device& device, std::uint64_t seed)
     : config_(config),
       modes_(bank.modes.size()),
-      clouds_(bank, config.particles, device, seed ^ kTargets),
-      starts_(bank, config.particles, device, seed ^ kTargets) {}
-
-void KnownTargets::set_appearance(const TargetAppearance& appearance) {
-  clouds_.set_appearance(appearance);
-  starts_.set_appearance(appearance);
-}
+      clouds_(bank, config.particles, device, seed ^ kTargets) {}
 
 void KnownTargets::follow(const Frame& z, const StepTime& at, TrackLog& log) {
   confirmed_now_.clear();
@@ -99,7 +93,6 @@ void KnownTargets::forget_ended() {
   for (std::size_t t = targets_.size(); t-- > 0;) {
     if (!targets_[t].ended) continue;
     clouds_.remove(t);
-    starts_.remove(t);
     targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(t));
   }
 }
@@ -117,7 +110,6 @@ bool KnownTargets::detect(const Peak& peak, const Particles& particles,
   target.detected = at.frame;
   target.estimate = peak;
   clouds_.add(particles, members, at.frame);
-  starts_.add(clouds_, clouds_.size() - 1);
   report(target, at, log);
   targets_.push_back(target);
   if (config_.confirm_hits <= 1) {

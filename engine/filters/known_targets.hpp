@@ -47,7 +47,7 @@ class KnownTargets {
  public:
   KnownTargets(const KnownTargetsConfig& config, const MotionBank& bank, const Device& device,
                std::uint64_t seed);
-  void set_appearance(const TargetAppearance& appearance);
+  void set_appearance(const TargetAppearance& appearance) { clouds_.set_appearance(appearance); }
 
   /// Moves all targets to the frame `z`, weighs and judges them, and reports them. Those that end
   /// lose the points of their last misses.
@@ -59,8 +59,7 @@ class KnownTargets {
   std::span<const KnownTarget> targets() const { return targets_; }  ///< by rising id
   /// Tracks confirmed by the last follow() or detect(): indices into targets().
   std::span<const std::size_t> confirmed_now() const { return confirmed_now_; }
-  /// The clouds as they were at the targets' detection; same indices.
-  const TargetClouds& starts() const { return starts_; }
+  const TargetClouds& clouds() const { return clouds_; }  ///< same indices
   /// Boxes of 2 half_width + 1 pixels around all targets.
   void boxes(int half_width, std::vector<Box>& boxes) const;
 
@@ -72,7 +71,7 @@ class KnownTargets {
 
   KnownTargetsConfig config_;
   std::size_t modes_;
-  TargetClouds clouds_, starts_;
+  TargetClouds clouds_;
   std::vector<KnownTarget> targets_;
   std::vector<std::size_t> confirmed_now_;
   std::uint32_t next_id_ = 1;

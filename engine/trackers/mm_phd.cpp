@@ -22,7 +22,7 @@ void MmPhd::step(const Scan& scan, TrackLog& log) {
   const StepTime at = clock_.tick(scan);
   targets_.follow(scan.whitened, at, log);
   detect(scan.whitened, at, log);
-  for (const std::size_t t : targets_.confirmed_now()) backward_.trace(targets_, t, log);
+  for (const std::size_t t : targets_.confirmed_now()) backward_.trace(targets_, t, at.frame, log);
   backward_.remember(scan.whitened, at, targets_.targets());
 }
 
