@@ -64,17 +64,21 @@ SceneScore score(const Scene& scene, const std::vector<TrackPoint>& points, bool
 
 }  // namespace
 
+Scan whitened_scan(const Scene& scene, std::uint64_t seed, int frame) {
+  Scan scan;
+  scan.frame = frame;
+  scan.time = frame * scene.interval;
+  scan.whitened = Frame(render(scene, seed, frame));
+  return scan;
+}
+
 SceneRun run_scene(const Scene& scene, const TrackerSetup& setup, std::uint64_t seed,
                    const SceneRunOptions& options) {
   const std::unique_ptr<Tracker> tracker = setup.make(Device::tbb(1), seed);
   TrackLog log;
   SceneRun run;
   for (int k = 0; k < scene.frames; ++k) {
-    Scan scan;
-    scan.frame = k;
-    scan.time = k * scene.interval;
-    scan.whitened = Frame(render(scene, seed, k));
-    tracker->step(scan, log);
+    tracker->step(whitened_scan(scene, seed, k), log);
     run.targets.push_back(static_cast<int>(truth_at(scene, k).size()));
     if (options.observe) run.observed.push_back(options.observe(*tracker));
   }

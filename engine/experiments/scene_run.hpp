@@ -8,6 +8,7 @@
 #include "glint/engine/experiments/tracker_setup.hpp"
 #include "glint/engine/metrics/evaluation.hpp"
 #include "glint/engine/mode_probability.hpp"
+#include "glint/engine/scan.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 
 namespace glint {
@@ -37,7 +38,10 @@ struct SceneRunOptions {
   double (*observe)(const Tracker&) = nullptr;  ///< asked after every step
 };
 
-/// The frames as rendered are the whitened ones: a scene's noise is known, and its unit is sigma.
+/// A scene's frame as trackers see it. What is rendered is the whitened frame: a scene's noise is
+/// known, and its unit is sigma.
+Scan whitened_scan(const Scene& scene, std::uint64_t seed, int frame);
+
 /// Scored at a cut-off of 5 px and order 2, P-PHD's accuracy of initiation. One thread. Throws
 /// ConfigError for a setup that does not exist.
 SceneRun run_scene(const Scene& scene, const TrackerSetup& setup, std::uint64_t seed,

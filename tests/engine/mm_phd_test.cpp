@@ -3,15 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <vector>
-
-#include "glint/engine/scenario/scenario.hpp"
+#include "dim_targets.hpp"
 
 namespace glint {
 namespace {
+
+using namespace test;
 
 MmPhdConfig config_for(double snr) {
   MmPhdConfig c;
@@ -24,62 +21,15 @@ MmPhdConfig config_for(double snr) {
   return c;
 }
 
-ScriptedTarget target(int birth, int death, Kinematics start, double snr) {
-  return {birth, death, PointSpread::of(0.7).intensity_of_snr(snr), fly(start)};
-}
-
-Scene scene_of(std::vector<ScriptedTarget> targets, int frames = 30) {
-  Scene s;
-  s.width = s.height = 40, s.frames = frames;
-  s.point_spread = PointSpread::of(0.7);
-  s.targets = std::move(targets);
-  return s;
-}
-
-TrackLog track(const Scene& scene, const MmPhdConfig& config, std::uint64_t seed = 1) {
-  TrackLog log;
-  MmPhd tracker(config, Device::tbb(1), seed);
-  for (int k = 0; k < scene.frames; ++k) {
-    Scan scan;
-    scan.frame = k, scan.time = k * scene.interval;
-    scan.whitened = Frame(render(scene, seed, k));
-    tracker.step(scan, log);
-  }
-  tracker.finish(log);
-  return log;
-}
-
-std::vector<TrackPoint> confirmed(const std::vector<TrackPoint>& points) {
-  std::vector<TrackPoint> kept;
-  std::ranges::copy_if(points, std::back_inserter(kept),
-                       [](const auto& p) { return p.status == TrackStatus::confirmed; });
-  return kept;
-}
-
-std::set<std::int64_t> ids(const std::vector<TrackPoint>& points) {
-  std::set<std::int64_t> set;
-  for (const auto& p : points) set.insert(p.track_id);
-  return set;
-}
-
 TEST(MmPhd, FollowsTwoTargetsUnderTwoIdentities) {
-  const Scene scene =
-      scene_of({target(3, 30, {6, 8, 0.9, 0.3}, 15), target(3, 30, {32, 30, -0.8, -0.4}, 15)});
-  const auto points = confirmed(track(scene, config_for(15)).revised());
+  const Scene scene = two_targets(15, 3, 30);
+  const auto points = confirmed(track<MmPhd>(scene, config_for(15)).revised());
   EXPECT_EQ(ids(points).size(), 2u);
-  for (const auto& p : points) {
-    double nearest = 1e9;
-    for (const auto& t : truth_at(scene, static_cast<int>(p.frame))) {
-      nearest = std::min(nearest, std::hypot(p.x - t.x, p.y - t.y));
-    }
-    EXPECT_LT(nearest, 1.5) << "frame " << p.frame;
-  }
+  for (const auto& p : points) EXPECT_LT(distance_to_truth(scene, p), 1.5) << p.frame;
 }
 
-/// First frame of the revised record; 99 if there is none.
 std::int64_t first_frame(const Scene& scene, const MmPhdConfig& config, std::uint64_t seed) {
-  const auto points = confirmed(track(scene, config, seed).revised());
-  return points.empty() ? 99 : points.front().frame;
+  return test::first_frame(confirmed(track<MmPhd>(scene, config, seed).revised()));
 }
 
 TEST(MmPhd, BackwardPassFindsWhereATrackCameFrom) {
@@ -113,25 +63,18 @@ TEST(MmPhd, BackwardPassSeldomGoesBeyondTheBirthOfWhatWasDetectedAtOnce) {
 }
 
 TEST(MmPhd, EndsATrackAndDropsItsLastMisses) {
-  const Scene scene = scene_of({target(2, 15, {6, 8, 0.9, 0.3}, 16)});
-  const TrackLog log = track(scene, config_for(16));
-  EXPECT_TRUE(std::ranges::any_of(log.online(),
-                                  [](const auto& p) { return p.status == TrackStatus::halted; }));
+  const TrackLog log = track<MmPhd>(one_target(16, 2, 15), config_for(16));
+  EXPECT_TRUE(any_halted(log));
   for (const auto& p : confirmed(log.revised())) EXPECT_LE(p.frame, 15);
 }
 
 TEST(MmPhd, ConfirmsNothingInNoise) {
-  int false_tracks = 0;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    false_tracks += static_cast<int>(
-        ids(confirmed(track(scene_of({}, 40), config_for(10), seed).online())).size());
-  }
-  EXPECT_LE(false_tracks, 1);
+  EXPECT_LE(declared_in_noise<MmPhd>(config_for(10), 40, 5), 1u);
 }
 
 TEST(MmPhd, TellsATurnFromAStraightLine) {
   Scene scene = scene_of({target(0, 30, {8, 20, 1, 0}, 20)});
-  const auto straight = confirmed(track(scene, config_for(20)).online());
+  const auto straight = confirmed(track<MmPhd>(scene, config_for(20)).online());
   double cv = 0;
   for (const auto& p : straight) {
     ASSERT_EQ(p.mode_probability.size(), 3u);

@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 #include <vector>
 
-#include "glint/engine/scenario/scenario.hpp"
+#include "dim_targets.hpp"
 
 namespace glint {
 namespace {
+
+using namespace test;
 
 /// Settings of P-PHD section 5.1 with the two-frame birth, for a target of `snr` [dB].
 SmcPhdConfig paper_config(double snr) {
@@ -25,20 +26,7 @@ SmcPhdConfig paper_config(double snr) {
 
 ScriptedTarget straight(int birth, int death, double x, double vx, double y, double vy,
                         double snr) {
-  ScriptedTarget t;
-  t.birth = birth, t.death = death;
-  t.intensity = PointSpread::of(0.7).intensity_of_snr(snr);
-  t.path = fly({x, y, vx, vy});
-  return t;
-}
-
-Scene scene_of(std::vector<ScriptedTarget> targets, int frames = 24, int width = 40,
-               int height = 40) {
-  Scene s;
-  s.name = "test", s.width = width, s.height = height, s.frames = frames;
-  s.point_spread = PointSpread::of(0.7);
-  s.targets = std::move(targets);
-  return s;
+  return target(birth, death, {x, y, vx, vy}, snr);
 }
 
 struct Tracked {
@@ -51,22 +39,11 @@ Tracked track(const Scene& scene, const SmcPhdConfig& config, std::uint64_t seed
   Tracked run;
   SmcPhd tracker(config, device, seed);
   for (int k = 0; k < scene.frames; ++k) {
-    Scan scan;
-    scan.frame = k, scan.time = k * scene.interval;
-    scan.whitened = Frame(render(scene, seed, k));
-    tracker.step(scan, run.log);
+    tracker.step(whitened_scan(scene, seed, k), run.log);
     run.expected.push_back(tracker.expected_targets());
   }
   tracker.finish(run.log);
   return run;
-}
-
-std::set<std::int64_t> confirmed_ids(const TrackLog& log) {
-  std::set<std::int64_t> ids;
-  for (const auto& p : log.online()) {
-    if (p.status == TrackStatus::confirmed) ids.insert(p.track_id);
-  }
-  return ids;
 }
 
 double worst_error(const TrackLog& log, const Scene& scene, int from) {
