@@ -30,7 +30,10 @@ void Viterbi::step(const Scan& scan, TrackLog& log) {
   if (!window_.full()) return;
   for (Track& track : tracks_) track.seen = false;
   for (const WindowPath& path : window_.find(static_cast<float>(config_.threshold))) {
-    if (path.first < path.last) stitch(path, log);
+    // A shorter one could continue no track, and would be a new one wherever one has ended.
+    if (path.last - path.first >= static_cast<std::size_t>(config_.common_frames)) {
+      stitch(path, log);
+    }
   }
   forget(log);
 }
@@ -59,7 +62,8 @@ double Viterbi::distance(const Track& track, const WindowPath& path) const {
       sum += std::hypot(p.x - path.cells[k].x, p.y - path.cells[k].y), ++common;
     }
   }
-  return common < config_.common_frames ? std::numeric_limits<double>::infinity() : sum / common;
+  const int least = track.halted ? 1 : config_.common_frames;
+  return common < least ? std::numeric_limits<double>::infinity() : sum / common;
 }
 
 /// The nearest track that no better path continues, or a new one.
@@ -94,6 +98,7 @@ TrackPoint Viterbi::point_of(const WindowPath& path, std::size_t k, std::int64_t
 
 void Viterbi::stitch(const WindowPath& path, TrackLog& log) {
   Track& track = owner(path);
+  if (track.halted) return;
   std::vector<TrackPoint>& points = track.points;
   const std::size_t newest = times_.size() - 1;
   const std::int64_t end = times_[path.last - 1].frame;
@@ -119,21 +124,29 @@ void Viterbi::stitch(const WindowPath& path, TrackLog& log) {
   }
 }
 
-/// Points leave with the window, and tracks with the points that a path could be matched to.
+void Viterbi::halt(Track& track, TrackLog& log) const {
+  const TrackPoint& last = track.points.back();
+  TrackPoint point = last;
+  point.frame = times_.back().frame, point.time = times_.back().time;
+  point.status = TrackStatus::halted;
+  log.report(point);
+  log.drop(track.id, last.frame + 1);
+  track.halted = true;
+}
+
+/// Tracks halt `halt_frames` after their last point, or when the window holds too few for a path
+/// to be matched to, and leave with the window.
 void Viterbi::forget(TrackLog& log) {
+  const int frames = std::min(
+      {config_.halt_frames, config_.window - 1, config_.window - config_.common_frames + 1});
+  const std::size_t over = times_.size() - 1 - static_cast<std::size_t>(frames);
+  for (Track& track : tracks_) {
+    if (!track.halted && track.points.back().frame <= times_[over].frame) halt(track, log);
+  }
   std::erase_if(tracks_, [&](Track& track) {
-    const TrackPoint last = track.points.back();
     std::erase_if(track.points,
                   [&](const TrackPoint& p) { return p.frame < times_.front().frame; });
-    const bool over =
-        !track.seen && track.points.size() < static_cast<std::size_t>(config_.common_frames);
-    if (!over) return false;
-    TrackPoint halt = last;
-    halt.frame = times_.back().frame, halt.time = times_.back().time;
-    halt.status = TrackStatus::halted;
-    log.report(halt);
-    log.drop(track.id, last.frame + 1);
-    return true;
+    return track.points.empty();
   });
 }
 

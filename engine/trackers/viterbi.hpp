@@ -22,6 +22,7 @@ struct ViterbiConfig : AppearanceConfig {
   double separation = 3;        ///< [px]
   int common_frames = 3;
   int settled_frames = 4;
+  int halt_frames = 4;
 };
 void describe(FieldList& f, ViterbiConfig& c);
 
@@ -37,11 +38,12 @@ class Viterbi : public Tracker {
   std::vector<std::string> notes() const override { return {appearance_.note()}; }
 
  private:
-  /// A track where the window still shows it.
+  /// A track where the window still shows it. One that is halted takes the paths that come near
+  /// it until its last point has left the window, and is not reported any more.
   struct Track {
     std::int64_t id;
     std::vector<TrackPoint> points;  ///< by frame
-    bool seen = true;
+    bool seen = true, halted = false;
   };
 
   void score(const Frame& z, double step);
@@ -49,6 +51,7 @@ class Viterbi : public Tracker {
   double distance(const Track& track, const WindowPath& path) const;
   Track& owner(const WindowPath& path);
   TrackPoint point_of(const WindowPath& path, std::size_t k, std::int64_t id) const;
+  void halt(Track& track, TrackLog& log) const;
   void forget(TrackLog& log);
 
   ViterbiConfig config_;

@@ -16,9 +16,11 @@ void describe(FieldList& f, ViterbiConfig& c) {
     "a path that comes this near to a better one at any frame is none; one this near to a track, "
     "on average, is its continuation");
   f("common_frames", c.common_frames, 1, kMaxPathStages, "frames",
-    "a path continues a track only if both have this many frames");
+    "a path continues a track only if both have this many frames; a shorter path is none");
   f("settled_frames", c.settled_frames, 0, kMaxPathStages, "frames",
     "a track's points older than this stay as they are");
+  f("halt_frames", c.halt_frames, 1, kMaxPathStages, "frames",
+    "a track ends this long after its last point; at once where the window shows too little of it");
 }
 
 }  // namespace glint

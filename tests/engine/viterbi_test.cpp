@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <set>
 
-#include "glint/engine/scenario/scenario.hpp"
+#include "dim_targets.hpp"
 
 namespace glint {
 namespace {
+
+using namespace test;
 
 /// A window of 5 stages over a 30x20 frame of this score with a straight path of 10 a stage in it.
 PathWindow window_with_path(const Device& device, int first, int last, float elsewhere = -1) {
@@ -68,28 +68,6 @@ ViterbiConfig config_for(double snr) {
   return c;
 }
 
-Scene scene_of(int targets, double snr, int birth, int death, int frames = 30) {
-  Scene s;
-  s.width = s.height = 40, s.frames = frames;
-  s.point_spread = PointSpread::of(0.7);
-  const double intensity = s.point_spread.intensity_of_snr(snr);
-  if (targets > 0) s.targets.push_back({birth, death, intensity, fly({6, 8, 0.9, 0.3})});
-  if (targets > 1) s.targets.push_back({birth, death, intensity, fly({32, 30, -0.8, -0.4})});
-  return s;
-}
-
-TrackLog track(const Scene& scene, const ViterbiConfig& config, std::uint64_t seed = 1) {
-  TrackLog log;
-  Viterbi tracker(config, Device::tbb(1), seed);
-  for (int k = 0; k < scene.frames; ++k) {
-    Scan scan;
-    scan.frame = k, scan.time = k * scene.interval;
-    scan.whitened = Frame(render(scene, seed, k));
-    tracker.step(scan, log);
-  }
-  return log;
-}
-
 std::map<std::int64_t, std::vector<TrackPoint>> by_track(const std::vector<TrackPoint>& points) {
   std::map<std::int64_t, std::vector<TrackPoint>> tracks;
   for (const TrackPoint& p : points) tracks[p.track_id].push_back(p);
@@ -97,62 +75,77 @@ std::map<std::int64_t, std::vector<TrackPoint>> by_track(const std::vector<Track
 }
 
 TEST(Viterbi, FollowsEachTargetUnderOneIdentityFromItsBirth) {
-  const Scene scene = scene_of(2, 16, 3, 30);
-  const TrackLog log = track(scene, config_for(16));
-  const auto tracks = by_track(log.revised());
+  const Scene scene = two_targets(16, 3, 30);
+  const auto tracks = by_track(track<Viterbi>(scene, config_for(16)).revised());
   ASSERT_EQ(tracks.size(), 2u);
   for (const auto& [id, points] : tracks) {
     EXPECT_NEAR(static_cast<double>(points.front().frame), 3, 1);
     EXPECT_EQ(points.back().frame, 29);
-    for (const TrackPoint& p : points) {
-      double nearest = 1e9;
-      for (const auto& t : truth_at(scene, static_cast<int>(p.frame))) {
-        nearest = std::min(nearest, std::hypot(p.x - t.x, p.y - t.y));
-      }
-      EXPECT_LT(nearest, 2) << id << " at " << p.frame;
-    }
+    for (const TrackPoint& p : points) EXPECT_LT(distance_to_truth(scene, p), 2) << p.frame;
   }
 }
 
 TEST(Viterbi, ReportsNothingBeforeItsWindowIsFull) {
-  const TrackLog log = track(scene_of(1, 18, 0, 30), config_for(18));
+  const TrackLog log = track<Viterbi>(one_target(18, 0, 30), config_for(18));
   EXPECT_EQ(log.online().front().frame, 7);
   EXPECT_EQ(log.revised().front().frame, 0);
 }
 
 TEST(Viterbi, KnowsTheVelocity) {
-  Scene scene = scene_of(1, 18, 0, 30);
+  Scene scene = scene_of({target(0, 30, {6, 8, 1.8, 0.6}, 18)});
   scene.interval = 0.5;
-  scene.targets[0].path = fly({6, 8, 1.8, 0.6});
   double sum = 0, count = 0;
-  for (const TrackPoint& p : track(scene, config_for(18)).revised()) sum += p.vx, ++count;
+  for (const TrackPoint& p : track<Viterbi>(scene, config_for(18)).revised()) sum += p.vx, ++count;
   EXPECT_NEAR(sum / count, 1.8, 0.15);
 }
 
-TEST(Viterbi, EndsATrackWhoseTargetVanishes) {
-  const TrackLog log = track(scene_of(1, 16, 2, 15), config_for(16));
-  const auto online = log.online();
-  EXPECT_EQ(std::ranges::count(online, TrackStatus::halted, &TrackPoint::status), 1);
-  EXPECT_NEAR(static_cast<double>(log.revised().back().frame), 14, 1);
+TEST(Viterbi, EndsATrackSoonAfterItsTargetHasVanished) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const TrackLog log = track<Viterbi>(one_target(16, 2, 15), config_for(16), seed);
+    const auto online = log.online();
+    ASSERT_EQ(std::ranges::count(online, TrackStatus::halted, &TrackPoint::status), 1);
+    const TrackPoint& halt = online.back();
+    EXPECT_EQ(halt.status, TrackStatus::halted);
+    EXPECT_EQ(halt.frame, log.revised().back().frame + ViterbiConfig{}.halt_frames);
+    EXPECT_NEAR(static_cast<double>(log.revised().back().frame), 14, 1);
+  }
+}
+
+TEST(Viterbi, HaltsAsConfigured) {
+  ViterbiConfig soon = config_for(16), late = soon;
+  soon.halt_frames = 2,
+  late.halt_frames = 32;  // 6: then the window shows less than 3 of its points
+  const auto halted = [](const ViterbiConfig& config) {
+    return track<Viterbi>(one_target(16, 2, 15), config).online().back().frame;
+  };
+  EXPECT_EQ(halted(late) - halted(soon), 4);
+}
+
+// Two frames of a bright target exceed the threshold of the whole window.
+TEST(Viterbi, WhatABrightTargetLeavesInTheWindowIsNoNewTrack) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const TrackLog log = track<Viterbi>(one_target(22, 2, 15), config_for(22), seed);
+    EXPECT_EQ(ids(log.revised()).size(), 1u);
+    EXPECT_EQ(ids(log.online()).size(), 1u);
+  }
+}
+
+TEST(Viterbi, AFlashIsNoTrack) {
+  const TrackLog log = track<Viterbi>(one_target(22, 10, 12), config_for(22));
+  EXPECT_TRUE(log.online().empty());
+  EXPECT_TRUE(log.revised().empty());
 }
 
 TEST(Viterbi, DeclaresLittleInNoise) {
-  std::size_t declared = 0;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    declared += by_track(track(scene_of(0, 10, 0, 0, 40), config_for(12), seed).online()).size();
-  }
-  EXPECT_LE(declared, 1u);
+  EXPECT_LE(declared_in_noise<Viterbi>(config_for(12), 40, 5), 1u);
 }
 
 TEST(Viterbi, AHigherThresholdDeclaresLater) {
   ViterbiConfig lax = config_for(12), strict = lax;
   lax.threshold = 15, strict.threshold = 45;
-  const Scene scene = scene_of(1, 12, 10, 30);
-  const auto first = [&](const ViterbiConfig& config) {
-    const auto points = track(scene, config).online();
-    return points.empty() ? std::int64_t{99} : points.front().frame;
-  };
-  EXPECT_LT(first(lax), first(strict));
+  const Scene scene = one_target(12, 10, 30);
+  EXPECT_LT(first_frame(track<Viterbi>(scene, lax).online()),
+            first_frame(track<Viterbi>(scene, strict).online()));
 }
 
 TEST(Viterbi, TakesEmptyAndTinyFrames) {
