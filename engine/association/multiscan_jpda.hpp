@@ -19,6 +19,13 @@ struct MultiscanSettings {
   std::size_t work = std::size_t{1} << 16;  ///< most joint events of a cluster and scan
   std::size_t events = 256;                 ///< most that a group carries to the next scan
   double least = 1e-6;                      ///< probability below which an event is not carried
+
+  /// No list at all: each scan stands alone, summed by Jpda.
+  static MultiscanSettings apart() {
+    MultiscanSettings settings;
+    settings.best_permutation = false, settings.work = 0;
+    return settings;
+  }
 };
 
 struct MultiscanReport {

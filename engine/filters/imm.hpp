@@ -56,6 +56,8 @@ class ImmOf {
   std::vector<ModeOf<Axes>>& modes() { return modes_; }
   const std::vector<ModeOf<Axes>>& modes() const { return modes_; }
   const ModeProbability& probability() const { return probability_; }
+  /// One a model, together 1.
+  void set_probability(const ModeProbability& probability) { probability_ = probability; }
   /// Position and velocity [x vx y vy (z vz)], moments of the mixture.
   Gaussian<2 * Axes> combined() const;
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "glint/engine/trackers/h_pmht.hpp"
+#include "glint/engine/trackers/imm_jpda.hpp"
 #include "glint/engine/trackers/imm_pda_ai.hpp"
 #include "glint/engine/trackers/mm_pf.hpp"
 #include "glint/engine/trackers/mm_phd.hpp"
@@ -38,6 +39,10 @@ constexpr std::array kTrackers{
     entry<ImmPdaAi, ImmPdaAiConfig>(
         "imm-pda-ai", "points by multiple models and probabilistic association, with amplitudes",
         Feed::both),
+    entry<ImmJpda, ImmJpdaConfig>(
+        "imm-jpda", "points by multiple models and joint probabilistic association", Feed::points),
+    entry<ImmJpda, ImmMscanJpdaConfig>("imm-mscan-jpda", "imm-jpda over a window of scans",
+                                       Feed::points),
     entry<Viterbi, ViterbiConfig>(
         "viterbi", "dynamic programming: the best paths through a sliding window of frames"),
 };

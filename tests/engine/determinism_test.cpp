@@ -59,7 +59,8 @@ TEST_P(Determinism, SerialDeviceRepeatsItself) {
 
 // The frames are the same: whatever differs comes from the tracker's own random numbers.
 TEST_P(Determinism, TheSeedMattersToThoseThatDrawRandomNumbers) {
-  static constexpr std::array<std::string_view, 3> kDrawNone{"h-pmht", "imm-pda-ai", "viterbi"};
+  static constexpr std::array<std::string_view, 5> kDrawNone{"h-pmht", "imm-pda-ai", "viterbi",
+                                                             "imm-jpda", "imm-mscan-jpda"};
   const Device device = Device::tbb(2);
   const auto log = [&](std::uint64_t seed) {
     FramesConfig frames;

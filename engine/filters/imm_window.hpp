@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "glint/engine/association/multiscan_jpda.hpp"
+#include "glint/engine/filters/imm.hpp"
+#include "glint/engine/models/measurement.hpp"
+
+namespace glint {
+
+/// How a window of scans is gone through.
+enum class WindowReading {
+  restart,  ///< from the estimate before its first scan, at every scan anew: P-JPDA as printed
+  sliding,  ///< what is likely given all earlier scans weighs in; the oldest scan is merged
+};
+
+struct ImmWindowSettings {
+  int scans = 2;  ///< in the window, 1 to 3; 1 is IMM-JPDA
+  WindowReading reading = WindowReading::sliding;
+  double detection = 0.9;    ///< P_D
+  double gate = 13.8;        ///< squared distance
+  MultiscanSettings events;  ///< with the best permutation: C*
+  JpdaClutter::Number clutter = JpdaClutter::Number::poisson;
+};
+
+/// Targets followed together, each by a bank of motion models: IMM-JPDA over a window of scans,
+/// P-JPDA section 4. The gate of a target is the union of those of its models and hypotheses.
+template <class Sensor>
+class ImmWindow {
+ public:
+  using Bank = ImmOf<Sensor::kAxes>;
+  using Seen = Measurement<Sensor>;
+  static constexpr int kMostScans = 3;
+
+  explicit ImmWindow(const ImmWindowSettings& settings)
+      : settings_(settings),
+        jpda_(settings.scans > 1 ? settings.events : MultiscanSettings::apart()) {}
+
+  /// A target as it is now: the next scan moves it.
+  void add(const Bank& bank);
+  void remove(std::size_t target);
+  std::size_t targets() const { return targets_.size(); }
+
+  /// Takes a scan in, `elapsed` after the last one. `density`: of false points [1/volume].
+  MultiscanReport step(std::span<const Seen> points, const Sensor& sensor, double density,
+                       double elapsed);
+
+  /// What is known of a target after the last scan.
+  const Bank& bank(std::size_t target) const { return targets_[target].estimate; }
+  Bank& bank(std::size_t target) { return targets_[target].estimate; }
+  /// Probability that it has none of the points of the last scan, or the point of its gate.
+  double missed(std::size_t target) const { return targets_[target].share[0]; }
+  std::span<const std::uint32_t> gated(std::size_t target) const { return targets_[target].gate; }
+  std::span<const double> shares(std::size_t target) const {
+    return std::span(targets_[target].share).subspan(1);
+  }
+
+ private:
+  /// What the target had in the scans of the window before this one, and where that leads to.
+  struct Hypothesis {
+    std::array<std::uint32_t, kMostScans - 1> history{};
+    int length = 0;
+    Bank bank;
+  };
+  struct Target {
+    Bank estimate;
+    std::vector<Hypothesis> hypotheses, next;
+    std::vector<Bank> before;  // estimates, the newest last; restart alone
+    std::vector<std::uint32_t> gate;
+    std::vector<double> log_weight, share;
+    std::vector<Bank> children;  // by hypothesis and option
+    double volume = 0;           // of the gate
+  };
+  struct PastScan {
+    std::vector<Seen> points;
+    Sensor sensor;
+    double density = 0, elapsed = 0;
+  };
+
+  MultiscanReport restart(const PastScan& newest);
+  MultiscanReport take_in(const PastScan& scan);
+  void predict(Target& target, const PastScan& scan);
+  void find_gate(Target& target, const PastScan& scan);
+  template <int N>
+  void gate_of(const Gaussian<N>& predicted, Target& target, const PastScan& scan);
+  void update(Target& target, const PastScan& scan, std::size_t hypothesis);
+  template <int N>
+  void update_mode(const Gaussian<N>& predicted, std::size_t mode, std::span<Bank> children,
+                   const Target& target, const PastScan& scan);
+  void estimate(Target& target, std::size_t number);
+  void advance();
+  void merge(Target& target, std::size_t number, std::span<const std::uint32_t> merged);
+  void forget();
+
+  ImmWindowSettings settings_;
+  MultiscanJpda jpda_;
+  std::vector<Target> targets_;
+  std::vector<PastScan> past_;         // the newest last; restart alone
+  std::vector<std::uint32_t> active_;  // targets by their number in jpda_
+  PastScan newest_;
+  // Memory to be used again.
+  std::vector<TargetScan> scan_;
+  std::vector<bool> gated_;
+  std::vector<std::uint32_t> merged_;
+  std::vector<Bank> parts_;
+  std::vector<double> weights_, log_likelihood_;  // log_likelihood_: by point and model
+};
+
+extern template class ImmWindow<PositionSensor<2>>;
+
+}  // namespace glint

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace glint {
+
+/// A point that no track has.
+struct FreePoint {
+  Eigen::Vector2d position;  ///< [px]
+  double amplitude = 0;      ///< [sigma]
+};
+
+/// Two points, of one scan and of the next, that may be one new target.
+struct PointStart {
+  FreePoint before, now;
+};
+
+/// Starts tracks from pairs of points.
+class PointStarts {
+ public:
+  /// Pairs at most `reach` [px] apart, each point in one pair: the brightest first, of equals the
+  /// nearest, then in the order of the points. Valid until the next call.
+  std::span<const PointStart> find(std::span<const FreePoint> before,
+                                   std::span<const FreePoint> now, double reach);
+
+ private:
+  struct Candidate {
+    double amplitude, distance;
+    std::size_t before, now;
+  };
+  std::vector<Candidate> candidates_;
+  std::vector<bool> taken_before_, taken_now_;
+  std::vector<PointStart> starts_;
+};
+
+}  // namespace glint

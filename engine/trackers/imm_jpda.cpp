@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/imm_jpda.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glint {
+namespace {
+
+constexpr double kClaimed = 0.5;  // of a point: more is some track's
+
+Eigen::Vector2d position_of(const Gaussian<4>& state) { return {state.mean(0), state.mean(2)}; }
+
+/// Tracks that are not confirmed are many and short: for them each scan stands alone.
+ImmWindowSettings settings_of(const ImmJpdaConfig& config, int scans) {
+  ImmWindowSettings settings;
+  settings.scans = scans;
+  settings.reading = config.reading == "restart" ? WindowReading::restart : WindowReading::sliding;
+  settings.detection = config.detection, settings.gate = config.gate;
+  settings.events.best_permutation = config.reading == "best";
+  if (config.clutter == "any") settings.clutter = JpdaClutter::Number::any;
+  return settings;
+}
+
+double area_of(const Scan& scan) {
+  const FrameView frame = scan.raw ? scan.raw.view() : scan.whitened.view();
+  return static_cast<double>(frame.width) * frame.height;
+}
+
+}  // namespace
+
+ImmJpda::ImmJpda(const ImmJpdaConfig& config, const Device&, std::uint64_t /*seed*/)
+    : config_(config),
+      confirmed_{Window(settings_of(config, config.window)), {}},
+      tentative_{Window(settings_of(config, 1)), {}} {
+  sensor_.noise *= config.measurement_variance;
+  if (config.life.confirm_hits > config.life.confirm_window) {
+    throw ConfigError("confirm_hits must not exceed confirm_window: lower it or widen the window");
+  }
+}
+
+void ImmJpda::Crew::add(Track track, const Imm& bank) {
+  window.add(bank);
+  tracks.push_back(std::move(track));
+}
+
+void ImmJpda::Crew::remove(std::size_t i) {
+  window.remove(i);
+  tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+/// Tracks that are not confirmed get the points that the confirmed ones leave.
+void ImmJpda::step(const Scan& scan, TrackLog& log) {
+  if (!clock_.started()) log.set_mode_names(imm_jpda_modes(config_));
+  const StepTime at = clock_.tick(scan);
+  elapsed_ = config_.clock == "frames" ? at.step : scan.time - std::exchange(last_time_, scan.time);
+  take_points(scan);
+  offered_.clear();
+  for (std::uint32_t j = 0; j < points_.size(); ++j) offered_.push_back(j);
+  follow(confirmed_, offered_, at);
+  std::erase_if(offered_, [&](std::uint32_t j) { return claimed_[j] >= kClaimed; });
+  follow(tentative_, offered_, at);
+  end_duplicates();
+  start_known(at);
+  start_tracks(at);
+  report(confirmed_, at, log);
+  report(tentative_, at, log);
+  promote();
+}
+
+void ImmJpda::take_points(const Scan& scan) {
+  points_.clear(), amplitudes_.clear();
+  for (const Point& p : scan.points) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+    points_.emplace_back(p.x, p.y);
+    amplitudes_.push_back(static_cast<double>(p.amplitude));
+    box_.extend(points_.back());
+  }
+  claimed_.assign(points_.size(), 0);
+  const double frame = area_of(scan);
+  const double area = frame > 0 ? frame : box_.isEmpty() ? 1 : std::max(box_.volume(), 1.0);
+  const double false_points =
+      static_cast<double>(points_.size()) - static_cast<double>(confirmed_.tracks.size());
+  density_ =
+      config_.clutter_density > 0 ? config_.clutter_density : std::max(false_points, 1.0) / area;
+}
+
+/// `points`: numbers of those that the crew may have.
+void ImmJpda::follow(Crew& crew, std::vector<std::uint32_t>& points, const StepTime& at) {
+  if (crew.tracks.empty() && config_.reading != "restart") return;
+  seen_.clear();
+  for (const std::uint32_t j : points) seen_.push_back(points_[j]);
+  const MultiscanReport said = crew.window.step(seen_, sensor_, density_, elapsed_);
+  count(said, &crew == &confirmed_ && config_.window > 1);
+  learn(crew, points, at);
+}
+
+void ImmJpda::count(const MultiscanReport& said, bool windowed) {
+  ++scans_, approximate_ += said.scan.approximate > 0;
+  trimmed_ += windowed && said.trimmed > 0, independent_ += windowed && said.independent > 0;
+  largest_ = std::max(largest_, said.scan.largest);
+}
+
+void ImmJpda::learn(Crew& crew, std::span<const std::uint32_t> points, const StepTime& at) {
+  for (std::size_t i = 0; i < crew.tracks.size(); ++i) {
+    Track& track = crew.tracks[i];
+    track.state = crew.window.bank(i).combined();
+    const double missed = crew.window.missed(i);
+    double amplitude = 0;
+    for (std::size_t k = 0; k < crew.window.gated(i).size(); ++k) {
+      const std::uint32_t j = points[crew.window.gated(i)[k]];
+      const double share = crew.window.shares(i)[k];
+      claimed_[j] += share, amplitude += share * amplitudes_[j];
+    }
+    const bool seen = missed < 0.5;
+    if (seen) track.amplitude = amplitude / (1 - missed), track.last_seen = at.frame;
+    // Of the target's points: (1 - P_D) / missed is their likelihood over that of clutter alone.
+    const double ratio = (1 - config_.detection) / std::max(missed, 1e-12);
+    track.life.see(config_.life, seen, ratio, at.step);
+  }
+}
+
+/// Of tracks on one target the older goes on, the confirmed one before the tentative.
+void ImmJpda::end_duplicates() {
+  const auto near = [&](const Track& a, const Track& b) {
+    return !a.life.over() &&
+           (position_of(a.state) - position_of(b.state)).norm() < config_.separation;
+  };
+  const auto beside = [&](std::span<const Track> older, const Track& track) {
+    return std::ranges::any_of(older, [&](const Track& other) { return near(other, track); });
+  };
+  const std::span<Track> confirmed(confirmed_.tracks), tentative(tentative_.tracks);
+  for (std::size_t b = 1; b < confirmed.size(); ++b) {
+    Track& younger = confirmed[b];
+    younger.merged = beside(confirmed.first(b), younger) ? younger.merged + 1 : 0;
+    if (config_.merge_scans > 0 && younger.merged >= config_.merge_scans) younger.life.end();
+  }
+  for (std::size_t b = 0; b < tentative.size(); ++b) {
+    if (beside(confirmed, tentative[b]) || beside(tentative.first(b), tentative[b])) {
+      tentative[b].life.end();
+    }
+  }
+}
+
+void ImmJpda::start_known(const StepTime& at) {
+  const double sd = config_.position_sd;
+  const double p = sd > 0 ? sd * sd : config_.measurement_variance;
+  const double v = config_.velocity_sd * config_.velocity_sd;
+  for (const Eigen::Vector4d& mean : known_) {
+    Gaussian<4> state{mean, Eigen::Vector4d(p, v, p, v).asDiagonal()};
+    add(confirmed_, state, TrackPoint::kUnknown, at);
+  }
+  known_.clear();
+}
+
+void ImmJpda::add(Crew& crew, const Gaussian<4>& state, double amplitude, const StepTime& at) {
+  const bool known = &crew == &confirmed_;
+  crew.add({next_id_++, at.frame, at.frame, TrackLife(config_.life, known), amplitude, state},
+           imm_jpda_bank(config_, state));
+}
+
+bool ImmJpda::crowded(const Eigen::Vector2d& position) const {
+  const auto near = [&](const Track& track) {
+    return !track.life.over() && (position_of(track.state) - position).norm() < config_.separation;
+  };
+  return std::ranges::any_of(confirmed_.tracks, near) ||
+         std::ranges::any_of(tentative_.tracks, near);
+}
+
+/// From two points in a row, which tell the velocity as well as they tell the positions.
+void ImmJpda::start_tracks(const StepTime& at) {
+  if (!config_.initiate) return;
+  std::swap(free_, free_before_);
+  free_.clear();
+  for (std::size_t j = 0; j < points_.size(); ++j) {
+    if (claimed_[j] >= kClaimed || amplitudes_[j] < config_.start_amplitude) continue;
+    free_.push_back({points_[j], std::isfinite(amplitudes_[j]) ? amplitudes_[j] : 0});
+  }
+  if (!(elapsed_ > 0)) return;
+  const double r = config_.measurement_variance;
+  Eigen::Matrix2d axis;
+  axis << r, r / elapsed_, r / elapsed_, 2 * r / (elapsed_ * elapsed_);
+  for (const PointStart& pair : starts_.find(free_before_, free_, config_.speed_max * elapsed_)) {
+    if (crowded(pair.now.position)) continue;
+    const Eigen::Vector2d velocity = (pair.now.position - pair.before.position) / elapsed_;
+    Gaussian<4> state;
+    state.mean << pair.now.position.x(), velocity.x(), pair.now.position.y(), velocity.y();
+    state.covariance << axis, Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero(), axis;
+    add(tentative_, state, pair.now.amplitude, at);
+  }
+}
+
+/// Lets the dead go, and those that were confirmed join the confirmed.
+void ImmJpda::promote() {
+  for (Crew* crew : {&confirmed_, &tentative_}) {
+    for (std::size_t i = crew->tracks.size(); i-- > 0;) {
+      if (crew->tracks[i].life.over()) crew->remove(i);
+    }
+  }
+  for (std::size_t i = 0; i < tentative_.tracks.size();) {
+    if (!tentative_.tracks[i].life.confirmed()) {
+      ++i;
+      continue;
+    }
+    confirmed_.add(tentative_.tracks[i], tentative_.window.bank(i));
+    tentative_.remove(i);
+  }
+}
+
+void ImmJpda::report(Crew& crew, const StepTime& at, TrackLog& log) {
+  const double rate = config_.clock == "frames" ? at.velocity_scale : 1;
+  for (std::size_t i = 0; i < crew.tracks.size(); ++i) {
+    Track& track = crew.tracks[i];
+    if (track.life.over() && !track.life.confirmed()) {
+      log.drop(track.id, track.first_frame);
+      continue;
+    }
+    TrackPoint point;
+    point.frame = at.frame, point.time = at.time, point.track_id = track.id;
+    point.status = track.life.status();
+    const auto& x = track.state.mean;
+    point.x = x(0), point.y = x(2), point.vx = x(1) * rate, point.vy = x(3) * rate;
+    point.intensity = track.amplitude, point.existence = track.life.existence();
+    const auto& p = track.state.covariance;
+    point.var_x = p(0, 0), point.cov_xy = p(0, 2), point.var_y = p(2, 2);
+    point.mode_probability = crew.window.bank(i).probability();
+    log.report(point);
+    if (track.life.over()) log.drop(track.id, track.last_seen + 1);
+    if (track.life.confirmed() && !std::exchange(track.told, true)) {
+      log.confirm(track.id, track.first_frame);
+    }
+  }
+}
+
+std::vector<std::string> ImmJpda::notes() const {
+  std::vector<std::string> notes;
+  const auto of_scans = [this](std::int64_t count) {
+    return std::to_string(count) + " of " + std::to_string(scans_) + " scans";
+  };
+  notes.push_back("largest cluster = " + std::to_string(largest_) + " targets");
+  if (approximate_ > 0)
+    notes.push_back("association by belief propagation in " + of_scans(approximate_));
+  if (trimmed_ > 0)
+    notes.push_back("least likely points left out of the window in " + of_scans(trimmed_));
+  if (independent_ > 0) notes.push_back("scans taken one by one in " + of_scans(independent_));
+  return notes;
+}
+
+}  // namespace glint

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "glint/engine/config.hpp"
+#include "glint/engine/filters/imm_window.hpp"
+#include "glint/engine/filters/point_starts.hpp"
+#include "glint/engine/filters/step_clock.hpp"
+#include "glint/engine/filters/track_life.hpp"
+#include "glint/engine/trackers/tracker.hpp"
+#include "glint/kernels/core/device.hpp"
+
+namespace glint {
+
+/// Settings of `imm-jpda`. Positions are in px, or whatever unit the points are in.
+struct ImmJpdaConfig {
+  // How a target moves.
+  std::string motion = "ncv+ncv";  ///< models, "+" between
+  double noise = 0.05;             ///< acceleration of ncv [px/time^2]
+  double noise_agile = 0.5;        ///< of the second ncv, or jumps of that of the first wpa
+  double noise_jump = 4;           ///< of the second wpa
+  double stay = 0.95;              ///< probability of no change of model
+  std::string clock = "frames";    ///< frames, seconds
+  // Which points are whose.
+  double measurement_variance = 1;  ///< [px^2]
+  double gate = 13.8;               ///< squared distance in sigmas
+  double detection = 0.9;
+  std::string clutter = "poisson";  ///< poisson, any
+  double clutter_density = 0;       ///< [1/px^2]; 0 = auto
+  int window = 1;                   ///< scans
+  std::string reading = "best";     ///< restart, sliding, best
+  // How tracks come and go.
+  bool initiate = true;
+  double start_amplitude = 5;               ///< [sigma]
+  double position_sd = 0, velocity_sd = 1;  ///< of a known start [px], [px/time]
+  double speed_max = 4;                     ///< of a new target [px/time]
+  double separation = 4;                    ///< [px]
+  int merge_scans = 8;
+  TrackLifeConfig life{
+      .birth_existence = 0.1, .confirm_hits = 3, .confirm_window = 4, .confirm_existence = 0.9};
+};
+void describe(FieldList& f, ImmJpdaConfig& c);
+
+struct ImmMscanJpdaConfig : ImmJpdaConfig {
+  ImmMscanJpdaConfig() { window = 2; }
+};
+
+/// Names of the models, in order.
+std::vector<std::string> imm_jpda_modes(const ImmJpdaConfig& config);
+/// Models that all believe `state`, [x vx y vy]. An acceleration is 0 give or take that of the
+/// model.
+Imm imm_jpda_bank(const ImmJpdaConfig& config, const Gaussian<4>& state);
+
+/// Interacting multiple models with joint probabilistic data association over one scan or a window
+/// of scans, a tracker of points: P-JPDA with the corrections of docs/trackers/imm-jpda.md. Starts
+/// and ends its tracks by itself unless told otherwise.
+class ImmJpda : public Tracker {
+ public:
+  ImmJpda(const ImmJpdaConfig& config, const Device& device, std::uint64_t seed);
+  Feed feed() const override { return Feed::points; }
+  /// A confirmed track that is at (x, y) [px] with velocity (vx, vy) [px/time] at the next scan;
+  /// the scans after that move it.
+  void start(double x, double y, double vx, double vy) { known_.push_back({x, vx, y, vy}); }
+  void step(const Scan& scan, TrackLog& log) override;
+  std::vector<std::string> notes() const override;
+
+ private:
+  using Window = ImmWindow<PositionSensor<2>>;
+  struct Track {
+    std::int64_t id, first_frame, last_seen;
+    TrackLife life;
+    double amplitude;
+    Gaussian<4> state;
+    bool told = false;  // the log knows that it is confirmed
+    int merged = 0;     // scans in a row that an older track was as near as `separation`
+  };
+  /// Tracks that compete for points, by rising id, and their filters.
+  struct Crew {
+    Window window;
+    std::vector<Track> tracks;
+    void add(Track track, const Imm& bank);
+    void remove(std::size_t i);
+  };
+
+  void take_points(const Scan& scan);
+  void follow(Crew& crew, std::vector<std::uint32_t>& points, const StepTime& at);
+  void count(const MultiscanReport& said, bool windowed);
+  void learn(Crew& crew, std::span<const std::uint32_t> points, const StepTime& at);
+  void end_duplicates();
+  void promote();
+  void start_known(const StepTime& at);
+  void start_tracks(const StepTime& at);
+  void add(Crew& crew, const Gaussian<4>& state, double amplitude, const StepTime& at);
+  bool crowded(const Eigen::Vector2d& position) const;
+  void report(Crew& crew, const StepTime& at, TrackLog& log);
+
+  ImmJpdaConfig config_;
+  PositionSensor<2> sensor_;
+  StepClock clock_;
+  double last_time_ = 0, elapsed_ = 1;  // [s]; since the last scan [time]
+  Eigen::AlignedBox2d box_;             // about all points, if there are no frames
+  std::vector<Eigen::Vector4d> known_;
+  Crew confirmed_, tentative_;
+  std::int64_t next_id_ = 1;
+  std::int64_t scans_ = 0, approximate_ = 0, trimmed_ = 0, independent_ = 0;
+  std::size_t largest_ = 0;
+
+  // Of the scan at hand.
+  std::vector<Eigen::Vector2d> points_;
+  std::vector<double> amplitudes_, claimed_;  // claimed: how far a point is some track's
+  double density_ = 0;                        // of false points [1/px^2]
+  std::vector<std::uint32_t> offered_;        // numbers of the points that a crew may have
+  std::vector<Eigen::Vector2d> seen_;
+  std::vector<FreePoint> free_, free_before_;
+  PointStarts starts_;
+};
+
+}  // namespace glint
