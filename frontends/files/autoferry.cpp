@@ -113,6 +113,7 @@ BoatRecord read_autoferry(const std::string& detections, const std::string& trut
       record.truth.push_back(point);
     }
   }
+  std::ranges::stable_sort(record.truth, {}, &TruthPoint::frame);
   return record;
 }
 

@@ -20,7 +20,7 @@ struct BoatScan {
 /// A recording of one sensor, with where each boat was at every scan.
 struct BoatRecord {
   std::vector<BoatScan> scans;
-  std::vector<TruthPoint> truth;  ///< frame: index of the scan; x, y [m], vx, vy [m/s]
+  std::vector<TruthPoint> truth;  ///< by scan (`frame`), then by boat; x, y [m], vx, vy [m/s]
 };
 
 /// Sensors that see positions.

@@ -55,14 +55,15 @@ TEST(Autoferry, TruthIsInterpolatedToTheScans) {
   const Folder folder;
   const std::vector<TruthPoint> truth = radar(folder).truth;
   ASSERT_EQ(truth.size(), 6U);
-  EXPECT_EQ(truth[1].frame, 1);
-  EXPECT_EQ(truth[1].track_id, 1);
   EXPECT_DOUBLE_EQ(truth[0].x, 45);
   EXPECT_DOUBLE_EQ(truth[0].y, 5);
-  EXPECT_DOUBLE_EQ(truth[1].x, 40);
-  EXPECT_DOUBLE_EQ(truth[1].vx, -10);
-  EXPECT_DOUBLE_EQ(truth[1].vy, 10);
-  EXPECT_DOUBLE_EQ(truth[2].x, 30);
+  EXPECT_EQ(truth[1].track_id, 2);
+  EXPECT_EQ(truth[2].frame, 1);
+  EXPECT_EQ(truth[2].track_id, 1);
+  EXPECT_DOUBLE_EQ(truth[2].x, 40);
+  EXPECT_DOUBLE_EQ(truth[2].vx, -10);
+  EXPECT_DOUBLE_EQ(truth[2].vy, 10);
+  EXPECT_DOUBLE_EQ(truth[4].x, 30);
 }
 
 TEST(Autoferry, SaysWhatIsWrong) {

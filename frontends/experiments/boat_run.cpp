@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/experiments/boat_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "glint/kernels/core/random.hpp"
+
+namespace glint {
+namespace {
+
+constexpr double kCutoff = 20;  // [m]
+constexpr double kBorder = 60;  // [m] of clutter about the truths
+
+double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+std::span<const TruthPoint> boats_at(std::span<const TruthPoint> truth, std::int64_t frame) {
+  const auto [first, last] = std::ranges::equal_range(truth, frame, {}, &TruthPoint::frame);
+  return {first, last};
+}
+
+/// Scans as a tracker of points takes them.
+class PointScans {
+ public:
+  explicit PointScans(const BoatRecord& record) : record_(record) {}
+  Scan at(std::size_t i) {
+    points_.clear();
+    for (const Position& p : record_.scans[i].points) {
+      points_.push_back({static_cast<float>(p.x), static_cast<float>(p.y), 10});
+    }
+    Scan scan;
+    scan.frame = static_cast<std::int64_t>(i), scan.time = record_.scans[i].time;
+    scan.points = points_;
+    return scan;
+  }
+
+ private:
+  const BoatRecord& record_;
+  std::vector<Point> points_;
+};
+
+/// Which track was started for which boat.
+using Own = std::map<std::int64_t, std::int64_t>;
+
+/// Starts those that came within reach at this scan; the tracker numbers its tracks from 1.
+void start_new(std::span<const TruthPoint> now, std::span<const TruthPoint> before,
+               std::int64_t& next, ImmJpda& tracker, Own& own) {
+  for (const TruthPoint& boat : now) {
+    if (std::ranges::find(before, boat.track_id, &TruthPoint::track_id) != before.end()) continue;
+    tracker.start(boat.x, boat.y, boat.vx, boat.vy);
+    own[boat.track_id] = next++;
+  }
+}
+
+void judge_last(std::span<const TruthPoint> truth, std::span<const TrackPoint> said, const Own& own,
+                BoatScore& score) {
+  for (const TruthPoint& boat : truth) {
+    const auto started = own.find(boat.track_id);
+    if (started == own.end()) continue;
+    const auto track = std::ranges::find(said, started->second, &TrackPoint::track_id);
+    const TruthPoint* nearest = nullptr;
+    double least = kCutoff;
+    if (track != said.end() && track->status != TrackStatus::halted) {
+      for (const TruthPoint& other : truth) {
+        const double d = distance({track->x, track->y}, {other.x, other.y});
+        if (d <= least) least = d, nearest = &other;
+      }
+    }
+    if (nearest == nullptr) ++score.lost;
+    if (nearest != nullptr && nearest->track_id != boat.track_id) ++score.swapped;
+  }
+}
+
+/// Numbers in (0, 1), counted out: a function of the key.
+class Draws {
+ public:
+  explicit Draws(const RandomKey& key) : key_(key) {}
+  double next() { return (random_words(key_, item_++).w[0] + 0.5) * 0x1p-32; }
+  /// The number of unit exponentials that fit into `mean`.
+  int poisson(double mean) {
+    int count = -1;
+    for (double sum = 0; sum <= mean; ++count) sum -= std::log(next());
+    return count;
+  }
+
+ private:
+  RandomKey key_;
+  std::uint32_t item_ = 0;
+};
+
+Box box_about(std::span<const TruthPoint> truth) {
+  const auto [left, right] = std::ranges::minmax(truth, {}, &TruthPoint::x);
+  const auto [low, high] = std::ranges::minmax(truth, {}, &TruthPoint::y);
+  return {static_cast<int>(std::floor(left.x - kBorder)),
+          static_cast<int>(std::floor(low.y - kBorder)),
+          static_cast<int>(std::ceil(right.x + kBorder)),
+          static_cast<int>(std::ceil(high.y + kBorder))};
+}
+
+}  // namespace
+
+BoatRecord changed(const BoatRecord& record, const BoatTrial& trial) {
+  BoatRecord result;
+  const Box box = box_about(record.truth);
+  const double width = box.x1 - box.x0, height = box.y1 - box.y0;
+  for (std::size_t i = 0; i < record.scans.size(); ++i) {
+    const BoatScan& scan = record.scans[i];
+    const auto in_reach = [&](const Position& p) { return distance(p, scan.ship) <= trial.reach; };
+    Draws draws(random_key(trial.seed, i, Purpose::trial));
+    BoatScan kept{scan.time, scan.ship, {}};
+    for (const Position& p : scan.points) {
+      if (draws.next() < trial.keep && in_reach(p)) kept.points.push_back(p);
+    }
+    for (int c = draws.poisson(trial.clutter * width * height); c > 0; --c) {
+      const double x = box.x0 + width * draws.next();
+      kept.points.push_back({x, box.y0 + height * draws.next()});
+    }
+    result.scans.push_back(std::move(kept));
+    for (const TruthPoint& t : boats_at(record.truth, static_cast<std::int64_t>(i))) {
+      if (in_reach({t.x, t.y})) result.truth.push_back(t);
+    }
+  }
+  return result;
+}
+
+BoatScore follow_boats(const BoatRecord& record, const ImmJpdaConfig& config, double reach) {
+  ImmJpda tracker(config, Device::serial(), 1);
+  TrackLog log;
+  PointScans scans(record);
+  Own own;
+  std::int64_t next = 1;
+  std::span<const TruthPoint> before;
+  for (std::size_t i = 0; i < record.scans.size(); ++i) {
+    const auto now = boats_at(record.truth, static_cast<std::int64_t>(i));
+    if (!config.initiate) start_new(now, before, next, tracker, own);
+    tracker.step(scans.at(i), log);
+    before = now;
+  }
+  tracker.finish(log);
+  BoatScore score;
+  const auto last = static_cast<std::int64_t>(record.scans.size()) - 1;
+  judge_last(before, log.at(last), own, score);
+  std::vector<TrackPoint> said = log.online();
+  std::erase_if(said, [&](const TrackPoint& p) {
+    return distance({p.x, p.y}, record.scans[static_cast<std::size_t>(p.frame)].ship) > reach;
+  });
+  const EvaluationOptions options{.cutoff = kCutoff, .frames = last + 1};
+  score.scores = evaluate(record.truth, said, options);
+  for (const auto& [id, ignored] : score.scores.truths) {
+    std::vector<TruthPoint> boat = record.truth;
+    std::erase_if(boat, [&](const TruthPoint& t) { return t.track_id != id; });
+    score.coverage[id] = evaluate(boat, said, options).detected_points;
+  }
+  return score;
+}
+
+}  // namespace glint

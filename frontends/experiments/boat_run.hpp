@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <map>
+
+#include "glint/engine/metrics/evaluation.hpp"
+#include "glint/engine/trackers/imm_jpda.hpp"
+#include "glint/frontends/files/autoferry.hpp"
+
+namespace glint {
+
+/// What is done to a recording before it is tracked.
+struct BoatTrial {
+  double reach = std::numeric_limits<double>::infinity();  ///< [m] from the ship; beyond is nothing
+  double keep = 1;                                         ///< share of the points that stay
+  double clutter = 0;  ///< density of false points [1/m^2], uniform over the truths and 60 m about
+  std::uint64_t seed = 1;
+};
+BoatRecord changed(const BoatRecord& record, const BoatTrial& trial);
+
+/// How a tracker followed the boats; OSPA and matches at a cut-off of 20 m, order 2.
+struct BoatScore {
+  Evaluation scores;
+  std::map<std::int64_t, double> coverage;  ///< by boat: share of its scans with a track on it
+  // Of tracks started from the truth.
+  int lost = 0;     ///< boats whose own track is more than 20 m off at the end, or has ended
+  int swapped = 0;  ///< boats whose own track is with the other one at the end
+};
+
+/// Steps the tracker over the scans. Unless the tracker initiates by itself, every boat is started
+/// where it is when it comes within reach. Tracks beyond `reach` [m] of the ship do not count.
+BoatScore follow_boats(const BoatRecord& record, const ImmJpdaConfig& config, double reach);
+
+}  // namespace glint

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "glint/engine/experiments/monte_carlo.hpp"
+#include "glint/frontends/experiments/boat_run.hpp"
+#include "glint/frontends/experiments/recorded.hpp"
+#include "glint/frontends/usage_error.hpp"
+
+namespace glint {
+namespace {
+
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+
+std::string file_of(const std::string& data, int scenario, const char* what) {
+  const std::string name = "scenario" + std::to_string(scenario) + '_' + what + ".json";
+  const std::string file = (std::filesystem::path(data) / "autoferry" / name).string();
+  if (std::filesystem::exists(file)) return file;
+  throw UsageError(file + ": is not there; give --data the folder that docs/boats.md describes");
+}
+
+BoatRecord read_scenario(const std::string& data, int scenario, BoatSensor sensor) {
+  if (data.empty()) {
+    throw UsageError("needs --data FOLDER; docs/boats.md says what it must hold");
+  }
+  return read_autoferry(file_of(data, scenario, "detections"),
+                        file_of(data, scenario, "groundTruth"), sensor);
+}
+
+/// A tracker of the family, for boats and [m].
+struct Method {
+  const char* name;
+  int window;
+  const char* reading;
+};
+constexpr Method kSingle{"imm-jpda", 1, "best"};
+constexpr Method kRestart{"imm-mscan-jpda, reading A", 2, "restart"};
+constexpr Method kBest{"imm-mscan-jpda", 2, "best"};
+
+ImmJpdaConfig config_of(const Method& method, double sd) {
+  ImmJpdaConfig config;
+  config.clock = "seconds";
+  config.motion = "ncv+ncv", config.noise = 0.05, config.noise_agile = 0.5, config.stay = 0.95;
+  config.measurement_variance = sd * sd;
+  config.detection = 0.9, config.gate = 13.8, config.clutter_density = 5e-6;
+  config.window = method.window, config.reading = method.reading;
+  config.position_sd = 8, config.velocity_sd = 1;
+  config.speed_max = 15, config.separation = 10;
+  return config;
+}
+
+ImmJpdaConfig started_from_truth(ImmJpdaConfig config) {
+  config.initiate = false;
+  config.merge_scans = 0;
+  config.life.halt_misses = 0, config.life.halt_existence = 0;
+  return config;
+}
+
+ImmJpdaConfig started_by_itself(ImmJpdaConfig config, int misses) {
+  config.life.confirm_hits = 3, config.life.confirm_window = 4;
+  config.life.halt_misses = misses;
+  return config;
+}
+
+ExperimentRow row_of(std::string name, std::string metric, const std::vector<double>& values,
+                     std::optional<Band> band = {}) {
+  const Summary summary = summarise(values);
+  ExperimentRow row;
+  row.name = std::move(name), row.metric = std::move(metric);
+  row.ours = summary.mean, row.spread = summary.spread, row.band = band;
+  return row;
+}
+
+struct Scenario {
+  int number;
+  Band radar;                            // OSPA [m] from known starts
+  double lidar;                          // the same, most
+  std::array<double, 2> least_coverage;  // by boat
+};
+const std::array kScenarios{
+    Scenario{2, {6.5, 7.3}, 4.3, {.95, .95}}, Scenario{3, {14.5, 15.1}, 3.7, {.70, .95}},
+    Scenario{5, {10.1, 10.7}, 3.2, {.95, .95}}, Scenario{16, {4.7, 5.7}, 4.0, {.95, .87}}};
+
+void add_known_rows(const std::string& name, const BoatScore& score, const Band& ospa, bool whole,
+                    ExperimentResult& result) {
+  result.rows.push_back(row_of(name, "OSPA [m]", {score.scores.mean_ospa.distance}, ospa));
+  result.rows.push_back(row_of(name, "GOSPA [m]", {score.scores.mean_gospa.distance}));
+  // Boat 1 of scenario 3 is lost by every tracker: its echo merges with the shore.
+  const std::optional<Band> none = whole ? std::optional(Band{{}, 0}) : std::nullopt;
+  result.rows.push_back(row_of(name, "boats lost", {double(score.lost)}, none));
+  result.rows.push_back(row_of(name, "boats swapped", {double(score.swapped)}, Band{{}, 0}));
+}
+
+void add_own_rows(const std::string& name, const BoatScore& score, const Scenario& scenario,
+                  ExperimentResult& result) {
+  for (const auto& [id, coverage] : score.coverage) {
+    const std::string boat = "boat " + std::to_string(id) + ' ';
+    const TruthScore& truth = score.scores.truths.at(id);
+    const double least = scenario.least_coverage[static_cast<std::size_t>(id - 1)];
+    result.rows.push_back(row_of(name, boat + "coverage", {coverage}, Band{least, {}}));
+    result.rows.push_back(
+        row_of(name, boat + "identities", {double(truth.identities)}, Band{{}, 1}));
+    result.rows.push_back(row_of(name, boat + "seen at scan", {truth.detect_delay + 1}));
+  }
+  result.rows.push_back(row_of(name, "false tracks", {double(score.scores.false_tracks)}));
+}
+
+}  // namespace
+
+ExperimentResult run_jpda_boats(const ExperimentOptions& options, Workers&) {
+  ExperimentResult result;
+  for (const Scenario& s : kScenarios) {
+    const BoatRecord radar = read_scenario(options.data, s.number, BoatSensor::radar);
+    BoatTrial near;
+    near.reach = 100;
+    const BoatRecord lidar =
+        changed(read_scenario(options.data, s.number, BoatSensor::lidar), near);
+    for (const Method& method : {kSingle, kRestart, kBest}) {
+      const std::string title = "scenario " + std::to_string(s.number) + ", " + method.name;
+      const ImmJpdaConfig config = config_of(method, 5);
+      add_known_rows(title + ", radar",
+                     follow_boats(radar, started_from_truth(config), kEverywhere), s.radar,
+                     s.number != 3, result);
+      add_own_rows(title + ", radar, own start",
+                   follow_boats(radar, started_by_itself(config, 5), kEverywhere), s, result);
+      add_known_rows(title + ", lidar", follow_boats(lidar, started_from_truth(config), near.reach),
+                     Band{{}, s.lidar}, true, result);
+    }
+  }
+  return result;
+}
+
+ExperimentResult run_jpda_boats_stress(const ExperimentOptions& options, Workers& workers) {
+  constexpr std::array kMethods{kSingle, kRestart, kBest};
+  constexpr std::array kNumbers{2, 5, 16};
+  std::vector<BoatRecord> records;
+  for (const int n : kNumbers) {
+    records.push_back(read_scenario(options.data, n, BoatSensor::radar));
+  }
+  const auto runs = run_cases(
+      kNumbers.size() * kMethods.size(), static_cast<std::size_t>(options.runs), workers,
+      options.progress, [&](std::size_t which, std::size_t run) {
+        BoatTrial trial;
+        trial.keep = 0.7, trial.clutter = 3e-4, trial.seed = options.seed + run;
+        ImmJpdaConfig config = started_from_truth(config_of(kMethods[which % kMethods.size()], 5));
+        config.clutter_density = 3e-4;
+        config.detection = 0.63;
+        return follow_boats(changed(records[which / kMethods.size()], trial), config, kEverywhere);
+      });
+  ExperimentResult result;
+  const auto column = [&](std::size_t which, const auto& value) {
+    std::vector<double> values;
+    for (const BoatScore& score : runs[which]) values.push_back(value(score));
+    return values;
+  };
+  const auto ospa = [](const BoatScore& s) { return s.scores.mean_ospa.distance; };
+  const auto broken = [](const BoatScore& s) { return 50.0 * (s.lost + s.swapped); };
+  for (std::size_t which = 0; which < runs.size(); ++which) {
+    const std::size_t scenario = which / kMethods.size(), method = which % kMethods.size();
+    const std::string name =
+        "scenario " + std::to_string(kNumbers[scenario]) + ", " + kMethods[method].name;
+    result.rows.push_back(row_of(name, "OSPA [m]", column(which, ospa)));
+    const bool best = method + 1 == kMethods.size();
+    result.rows.push_back(row_of(name, "lost or swapped [%]", column(which, broken),
+                                 best ? std::optional(Band{{}, 1.5}) : std::nullopt));
+    if (method == 0) continue;
+    std::vector<double> gains = column(which - method, ospa);
+    const std::vector<double> ours = column(which, ospa);
+    for (std::size_t r = 0; r < gains.size(); ++r) gains[r] -= ours[r];
+    const Summary gain = summarise(gains);
+    const double error = gain.spread / std::sqrt(static_cast<double>(gains.size()));
+    result.rows.push_back(row_of(name, "below imm-jpda's [m]", gains));
+    result.rows.push_back(
+        row_of(name, "the same in errors", {gain.mean / error},
+               kNumbers[scenario] == 5 ? std::nullopt : std::optional(Band{2, {}})));
+  }
+  return result;
+}
+
+}  // namespace glint
