@@ -92,6 +92,18 @@ class Draws {
   std::uint32_t item_ = 0;
 };
 
+Coverage coverage_of(std::int64_t boat, std::vector<TruthPoint> truth,
+                     const std::vector<TrackPoint>& tracks, const EvaluationOptions& options) {
+  std::erase_if(truth, [&](const TruthPoint& t) { return t.track_id != boat; });
+  std::map<std::int64_t, std::vector<TrackPoint>> apart;
+  for (const TrackPoint& p : tracks) apart[p.track_id].push_back(p);
+  Coverage coverage{evaluate(truth, tracks, options).detected_points, 0};
+  for (const auto& [id, points] : apart) {
+    coverage.one = std::max(coverage.one, evaluate(truth, points, options).detected_points);
+  }
+  return coverage;
+}
+
 Box box_about(std::span<const TruthPoint> truth) {
   const auto [left, right] = std::ranges::minmax(truth, {}, &TruthPoint::x);
   const auto [low, high] = std::ranges::minmax(truth, {}, &TruthPoint::y);
@@ -144,16 +156,17 @@ BoatScore follow_boats(const BoatRecord& record, const ImmJpdaConfig& config, do
   BoatScore score;
   const auto last = static_cast<std::int64_t>(record.scans.size()) - 1;
   judge_last(before, log.at(last), own, score);
-  std::vector<TrackPoint> said = log.online();
-  std::erase_if(said, [&](const TrackPoint& p) {
-    return distance({p.x, p.y}, record.scans[static_cast<std::size_t>(p.frame)].ship) > reach;
-  });
+  const auto in_reach = [&](std::vector<TrackPoint> points) {
+    std::erase_if(points, [&](const TrackPoint& p) {
+      return distance({p.x, p.y}, record.scans[static_cast<std::size_t>(p.frame)].ship) > reach;
+    });
+    return points;
+  };
+  const std::vector<TrackPoint> revised = in_reach(log.revised());
   const EvaluationOptions options{.cutoff = kCutoff, .frames = last + 1};
-  score.scores = evaluate(record.truth, said, options);
+  score.scores = evaluate(record.truth, in_reach(log.online()), options);
   for (const auto& [id, ignored] : score.scores.truths) {
-    std::vector<TruthPoint> boat = record.truth;
-    std::erase_if(boat, [&](const TruthPoint& t) { return t.track_id != id; });
-    score.coverage[id] = evaluate(boat, said, options).detected_points;
+    score.coverage[id] = coverage_of(id, record.truth, revised, options);
   }
   return score;
 }

@@ -19,10 +19,15 @@ struct BoatTrial {
 };
 BoatRecord changed(const BoatRecord& record, const BoatTrial& trial);
 
+/// Share of a boat's scans with a track on it, in the record as revised.
+struct Coverage {
+  double any = 0, one = 0;  ///< any tracks; the best single one
+};
+
 /// How a tracker followed the boats; OSPA and matches at a cut-off of 20 m, order 2.
 struct BoatScore {
   Evaluation scores;
-  std::map<std::int64_t, double> coverage;  ///< by boat: share of its scans with a track on it
+  std::map<std::int64_t, Coverage> coverage;  ///< by boat
   // Of tracks started from the truth.
   int lost = 0;     ///< boats whose own track is more than 20 m off at the end, or has ended
   int swapped = 0;  ///< boats whose own track is with the other one at the end

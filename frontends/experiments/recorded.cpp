@@ -9,6 +9,10 @@ namespace {
 constexpr std::array kExperiments{
     ExperimentEntry{"real-video", "dim birds and aircraft in real clips; needs --data", 5,
                     run_real_video},
+    ExperimentEntry{"jpda-boats", "two boats seen by radar and lidar; needs --data", 1,
+                    run_jpda_boats},
+    ExperimentEntry{"jpda-boats-stress", "the same, thinned and among clutter; needs --data", 150,
+                    run_jpda_boats_stress},
 };
 
 }  // namespace

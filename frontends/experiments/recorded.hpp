@@ -14,4 +14,9 @@ std::span<const ExperimentEntry> recorded_experiments();
 /// (docs/real-video.md).
 ExperimentResult run_real_video(const ExperimentOptions& options, Workers& workers);
 
+/// imm-jpda and imm-mscan-jpda on two real boats (docs/boats.md): as they were seen, and with
+/// points taken away and others added.
+ExperimentResult run_jpda_boats(const ExperimentOptions& options, Workers& workers);
+ExperimentResult run_jpda_boats_stress(const ExperimentOptions& options, Workers& workers);
+
 }  // namespace glint

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -28,12 +29,12 @@ Json read_list(const std::string& path) {
   throw std::runtime_error(path + ": must be a list with at least one entry");
 }
 
-/// Calls f(entry, index); what is missing or of a wrong type is reported with the entry's number.
+/// Calls f(entry); what is missing or of a wrong type is reported with the entry's number.
 template <class F>
 void each_entry(const std::string& path, const Json& list, const F& f) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     try {
-      f(list[i], i);
+      f(list[i]);
     } catch (const Json::exception& e) {
       throw std::runtime_error(fmt::format("{}: entry {}: {}", path, i + 1, e.what()));
     }
@@ -65,7 +66,7 @@ using Track = std::map<double, Position>;
 
 std::map<std::int64_t, Track> read_tracks_of_boats(const std::string& path) {
   std::map<std::int64_t, Track> boats;
-  each_entry(path, read_list(path), [&](const Json& entry, std::size_t) {
+  each_entry(path, read_list(path), [&](const Json& entry) {
     for (const Json& boat : entry) {
       boats[boat.at("targetID").get<std::int64_t>()][boat.at("time").get<double>()] =
           position_of(boat.at("position"));
@@ -95,10 +96,11 @@ BoatRecord read_autoferry(const std::string& detections, const std::string& trut
                           BoatSensor sensor) {
   const Json list = read_list(detections);
   BoatRecord record;
-  double start = 0;
-  each_entry(detections, list, [&](const Json& entry, std::size_t i) {
+  double start = std::numeric_limits<double>::infinity();  // entries are not quite in order
+  each_entry(detections, list,
+             [&](const Json& entry) { start = std::min(start, entry.at("time").get<double>()); });
+  each_entry(detections, list, [&](const Json& entry) {
     const double time = entry.at("time").get<double>();
-    if (i == 0) start = time;
     if (entry.at("sensorID").get<int>() != static_cast<int>(sensor)) return;
     const Position ship = position_of(entry.at("ownshipPosition"));
     record.scans.push_back({time - start, ship, points_of(entry.at("measurement"), ship)});

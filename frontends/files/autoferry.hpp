@@ -12,7 +12,7 @@ namespace glint {
 
 /// What one sensor of the Autoferry data set saw at a time. x is east, y is north [m].
 struct BoatScan {
-  double time = 0;               ///< [s] since the first entry of the recording
+  double time = 0;               ///< [s] since the earliest entry of the recording
   Position ship;                 ///< where the sensor is
   std::vector<Position> points;  ///< where it saw something, in the frame of the truth
 };
