@@ -14,8 +14,9 @@ struct Scan {
   double time = 0;         ///< [s]
   Frame raw;               ///< grey, as delivered (after colour conversion); may be empty
   Frame whitened;  ///< z = polarity (I - background) / sigma, unit noise; masked pixels are 0
-  double noise_sigma = 1;         ///< median of the noise map [grey levels]
-  std::span<const Point> points;  ///< of this frame; only if some tracker feeds on points
+  double noise_sigma = 1;             ///< median of the noise map [grey levels]
+  double sensor_x = 0, sensor_y = 0;  ///< where it stands, for points of range and azimuth [px]
+  std::span<const Point> points;      ///< of this frame; only if some tracker feeds on points
 };
 
 }  // namespace glint

@@ -268,5 +268,6 @@ void ImmWindow<Sensor>::forget() {
 }
 
 template class ImmWindow<PositionSensor<2>>;
+template class ImmWindow<RangeAzimuth>;
 
 }  // namespace glint

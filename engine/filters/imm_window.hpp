@@ -111,5 +111,6 @@ class ImmWindow {
 };
 
 extern template class ImmWindow<PositionSensor<2>>;
+extern template class ImmWindow<RangeAzimuth>;
 
 }  // namespace glint

@@ -22,6 +22,11 @@ ImmWindowSettings settings_of(const ImmJpdaConfig& config, int scans) {
   return settings;
 }
 
+PointNoise noise_of(const ImmJpdaConfig& config) {
+  return {config.measurement == "range-azimuth", config.measurement_variance, config.range_sd,
+          config.azimuth_sd};
+}
+
 double area_of(const Scan& scan) {
   const FrameView frame = scan.raw ? scan.raw.view() : scan.whitened.view();
   return static_cast<double>(frame.width) * frame.height;
@@ -31,9 +36,8 @@ double area_of(const Scan& scan) {
 
 ImmJpda::ImmJpda(const ImmJpdaConfig& config, const Device&, std::uint64_t /*seed*/)
     : config_(config),
-      confirmed_{Window(settings_of(config, config.window)), {}},
-      tentative_{Window(settings_of(config, 1)), {}} {
-  sensor_.noise *= config.measurement_variance;
+      confirmed_{PointWindow(settings_of(config, config.window), noise_of(config)), {}},
+      tentative_{PointWindow(settings_of(config, 1), noise_of(config)), {}} {
   if (config.life.confirm_hits > config.life.confirm_window) {
     throw ConfigError("confirm_hits must not exceed confirm_window: lower it or widen the window");
   }
@@ -69,6 +73,7 @@ void ImmJpda::step(const Scan& scan, TrackLog& log) {
 }
 
 void ImmJpda::take_points(const Scan& scan) {
+  place_ << scan.sensor_x, scan.sensor_y;
   points_.clear(), amplitudes_.clear();
   for (const Point& p : scan.points) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
@@ -90,7 +95,7 @@ void ImmJpda::follow(Crew& crew, std::vector<std::uint32_t>& points, const StepT
   if (crew.tracks.empty() && config_.reading != "restart") return;
   seen_.clear();
   for (const std::uint32_t j : points) seen_.push_back(points_[j]);
-  const MultiscanReport said = crew.window.step(seen_, sensor_, density_, elapsed_);
+  const MultiscanReport said = crew.window.step(seen_, place_, density_, elapsed_);
   count(said, &crew == &confirmed_ && config_.window > 1);
   learn(crew, points, at);
 }
@@ -144,10 +149,13 @@ void ImmJpda::end_duplicates() {
 
 void ImmJpda::start_known(const StepTime& at) {
   const double sd = config_.position_sd;
-  const double p = sd > 0 ? sd * sd : config_.measurement_variance;
-  const double v = config_.velocity_sd * config_.velocity_sd;
   for (const Eigen::Vector4d& mean : known_) {
-    Gaussian<4> state{mean, Eigen::Vector4d(p, v, p, v).asDiagonal()};
+    const Eigen::Matrix2d p = sd > 0 ? Eigen::Matrix2d(sd * sd * Eigen::Matrix2d::Identity())
+                                     : confirmed_.window.noise_at({mean(0), mean(2)});
+    Gaussian<4> state;
+    state.mean = mean;
+    state.covariance *= config_.velocity_sd * config_.velocity_sd;
+    state.covariance(Eigen::seqN(0, 2, 2), Eigen::seqN(0, 2, 2)) = p;
     add(confirmed_, state, TrackPoint::kUnknown, at);
   }
   known_.clear();
@@ -177,15 +185,15 @@ void ImmJpda::start_tracks(const StepTime& at) {
     free_.push_back({points_[j], std::isfinite(amplitudes_[j]) ? amplitudes_[j] : 0});
   }
   if (!(elapsed_ > 0)) return;
-  const double r = config_.measurement_variance;
-  Eigen::Matrix2d axis;
-  axis << r, r / elapsed_, r / elapsed_, 2 * r / (elapsed_ * elapsed_);
+  Eigen::Matrix2d axis;  // of position and velocity, in units of a position's covariance
+  axis << 1, 1 / elapsed_, 1 / elapsed_, 2 / (elapsed_ * elapsed_);
   for (const PointStart& pair : starts_.find(free_before_, free_, config_.speed_max * elapsed_)) {
     if (crowded(pair.now.position)) continue;
     const Eigen::Vector2d velocity = (pair.now.position - pair.before.position) / elapsed_;
     Gaussian<4> state;
     state.mean << pair.now.position.x(), velocity.x(), pair.now.position.y(), velocity.y();
-    state.covariance << axis, Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero(), axis;
+    const Eigen::Matrix2d r = tentative_.window.noise_at(pair.now.position);
+    state.covariance << r(0, 0) * axis, r(0, 1) * axis, r(1, 0) * axis, r(1, 1) * axis;
     add(tentative_, state, pair.now.amplitude, at);
   }
 }

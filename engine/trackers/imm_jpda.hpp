@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "glint/engine/config.hpp"
-#include "glint/engine/filters/imm_window.hpp"
 #include "glint/engine/filters/point_starts.hpp"
+#include "glint/engine/filters/point_window.hpp"
 #include "glint/engine/filters/step_clock.hpp"
 #include "glint/engine/filters/track_life.hpp"
 #include "glint/engine/trackers/tracker.hpp"
@@ -27,8 +27,10 @@ struct ImmJpdaConfig {
   double stay = 0.95;              ///< probability of no change of model
   std::string clock = "frames";    ///< frames, seconds
   // Which points are whose.
-  double measurement_variance = 1;  ///< [px^2]
-  double gate = 13.8;               ///< squared distance in sigmas
+  std::string measurement = "position";      ///< position, range-azimuth
+  double measurement_variance = 1;           ///< [px^2]
+  double range_sd = 4.5, azimuth_sd = 0.03;  ///< [px], [rad]
+  double gate = 13.8;                        ///< squared distance in sigmas
   double detection = 0.9;
   std::string clutter = "poisson";  ///< poisson, any
   double clutter_density = 0;       ///< [1/px^2]; 0 = auto
@@ -70,7 +72,6 @@ class ImmJpda : public Tracker {
   std::vector<std::string> notes() const override;
 
  private:
-  using Window = ImmWindow<PositionSensor<2>>;
   struct Track {
     std::int64_t id, first_frame, last_seen;
     TrackLife life;
@@ -81,7 +82,7 @@ class ImmJpda : public Tracker {
   };
   /// Tracks that compete for points, by rising id, and their filters.
   struct Crew {
-    Window window;
+    PointWindow window;
     std::vector<Track> tracks;
     void add(Track track, const Imm& bank);
     void remove(std::size_t i);
@@ -100,7 +101,6 @@ class ImmJpda : public Tracker {
   void report(Crew& crew, const StepTime& at, TrackLog& log);
 
   ImmJpdaConfig config_;
-  PositionSensor<2> sensor_;
   StepClock clock_;
   double last_time_ = 0, elapsed_ = 1;  // [s]; since the last scan [time]
   Eigen::AlignedBox2d box_;             // about all points, if there are no frames
@@ -111,6 +111,7 @@ class ImmJpda : public Tracker {
   std::size_t largest_ = 0;
 
   // Of the scan at hand.
+  Eigen::Vector2d place_;  // of the sensor
   std::vector<Eigen::Vector2d> points_;
   std::vector<double> amplitudes_, claimed_;  // claimed: how far a point is some track's
   double density_ = 0;                        // of false points [1/px^2]

@@ -34,6 +34,7 @@ class PointScans {
     }
     Scan scan;
     scan.frame = static_cast<std::int64_t>(i), scan.time = record_.scans[i].time;
+    scan.sensor_x = record_.scans[i].ship.x, scan.sensor_y = record_.scans[i].ship.y;
     scan.points = points_;
     return scan;
   }

@@ -100,6 +100,17 @@ void add_known_rows(const std::string& name, const BoatScore& score, const Band&
   result.rows.push_back(row_of(name, "boats swapped", {double(score.swapped)}, Band{{}, 0}));
 }
 
+/// Beside the same as positions.
+void add_polar_rows(const std::string& name, const BoatScore& positions, const BoatScore& score,
+                    ExperimentResult& result) {
+  const double ospa = score.scores.mean_ospa.distance;
+  result.rows.push_back(row_of(name, "OSPA [m]", {ospa}));
+  result.rows.push_back(row_of(name, "beyond that of positions [m]",
+                               {ospa - positions.scores.mean_ospa.distance}, Band{-.4, .4}));
+  result.rows.push_back(row_of(name, "boats lost", {double(score.lost)}));
+  result.rows.push_back(row_of(name, "boats swapped", {double(score.swapped)}, Band{{}, 0}));
+}
+
 void add_own_rows(const std::string& name, const BoatScore& score, const Scenario& scenario,
                   ExperimentResult& result) {
   for (const auto& [id, coverage] : score.coverage) {
@@ -131,6 +142,11 @@ ExperimentResult run_jpda_boats(const ExperimentOptions& options, Workers&) {
       add_known_rows(title + ", radar",
                      follow_boats(radar, started_from_truth(config), kEverywhere), s.radar,
                      s.number != kLostScenario, result);
+      ImmJpdaConfig polar = config;
+      polar.measurement = "range-azimuth", polar.range_sd = 4.5, polar.azimuth_sd = .03;
+      add_polar_rows(title + ", radar as range and azimuth",
+                     follow_boats(radar, started_from_truth(config), kEverywhere),
+                     follow_boats(radar, started_from_truth(polar), kEverywhere), result);
       add_own_rows(title + ", radar, own start",
                    follow_boats(radar, started_by_itself(config, 5), kEverywhere), s, result);
       add_known_rows(title + ", lidar", follow_boats(lidar, started_from_truth(config), near.reach),
