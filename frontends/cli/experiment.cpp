@@ -124,7 +124,7 @@ void run(const Request& request) {
 std::string names() {
   std::string list;
   for (const ExperimentEntry& e : experiments()) {
-    list += fmt::format("  {:<14}{} ({} runs)\n", e.name, e.summary, e.runs);
+    list += fmt::format("  {:<20}{} ({} runs)\n", e.name, e.summary, e.runs);
   }
   return list;
 }

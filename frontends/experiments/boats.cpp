@@ -29,8 +29,8 @@ BoatRecord read_scenario(const std::string& data, int scenario, BoatSensor senso
   if (data.empty()) {
     throw UsageError("needs --data FOLDER; docs/boats.md says what it must hold");
   }
-  return read_autoferry(file_of(data, scenario, "detections"),
-                        file_of(data, scenario, "groundTruth"), sensor);
+  const std::string detections = file_of(data, scenario, "detections");
+  return read_autoferry(detections, file_of(data, scenario, "groundTruth"), sensor);
 }
 
 /// A tracker of the family, for boats and [m].
