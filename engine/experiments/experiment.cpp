@@ -8,6 +8,7 @@
 
 #include "glint/engine/config.hpp"
 #include "glint/engine/experiments/hpmht.hpp"
+#include "glint/engine/experiments/jpda.hpp"
 #include "glint/engine/experiments/phd.hpp"
 
 namespace glint {
@@ -24,6 +25,10 @@ constexpr std::array kExperiments{
                     run_hpmht_table_2},
     ExperimentEntry{"hpmht-table3", "the same at other thresholds: P-HPMHT table 3", 20,
                     run_hpmht_table_3},
+    ExperimentEntry{"jpda-fig2", "three aircraft past each other on radar: P-JPDA figure 2", 2000,
+                    run_jpda_fig2},
+    ExperimentEntry{"jpda-coalescence", "two targets that are one point for a while", 40,
+                    run_jpda_coalescence},
 };
 
 }  // namespace

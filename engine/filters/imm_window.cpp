@@ -269,5 +269,6 @@ void ImmWindow<Sensor>::forget() {
 
 template class ImmWindow<PositionSensor<2>>;
 template class ImmWindow<RangeAzimuth>;
+template class ImmWindow<RangeAzimuthElevation>;
 
 }  // namespace glint

@@ -112,5 +112,6 @@ class ImmWindow {
 
 extern template class ImmWindow<PositionSensor<2>>;
 extern template class ImmWindow<RangeAzimuth>;
+extern template class ImmWindow<RangeAzimuthElevation>;
 
 }  // namespace glint
