@@ -10,6 +10,7 @@
 #include "glint/engine/experiments/hpmht.hpp"
 #include "glint/engine/experiments/jpda.hpp"
 #include "glint/engine/experiments/phd.hpp"
+#include "glint/engine/experiments/pmht.hpp"
 
 namespace glint {
 namespace {
@@ -29,6 +30,12 @@ constexpr std::array kExperiments{
                     run_jpda_fig2},
     ExperimentEntry{"jpda-coalescence", "two targets that are one point for a while", 40,
                     run_jpda_coalescence},
+    ExperimentEntry{"pmht-table1", "fast targets seen as points, and clutter: P-PMHT table 1", 100,
+                    run_pmht_table_1},
+    ExperimentEntry{"pmht-montecarlo", "three paths that turn or not: P-PMHT section 4", 50,
+                    run_pmht_monte_carlo},
+    ExperimentEntry{"pmht-40targets", "forty targets at once: P-PMHT section 4", 40,
+                    run_pmht_40_targets},
 };
 
 }  // namespace

@@ -26,17 +26,22 @@ double PointSensor::clutter_density(const Scene& scene) const {
   return static_cast<double>(clutter) / scene.width / scene.height;
 }
 
+Point point_of(const TruthPoint& target, const PointSensor& sensor, std::uint64_t seed) {
+  const RandomKey key =
+      random_key(seed, static_cast<std::uint64_t>(target.frame), Purpose::scenario);
+  const Normals4 n = random_normals(key, static_cast<std::uint32_t>(target.track_id));
+  const double sigma = std::sqrt(sensor.variance);
+  double x = target.x + sigma * static_cast<double>(n.n[0]);
+  double y = target.y + sigma * static_cast<double>(n.n[1]);
+  if (sensor.rounds) x = std::round(x), y = std::round(y);
+  return {static_cast<float>(x), static_cast<float>(y), sensor.amplitude};
+}
+
 std::vector<Point> points_at(const Scene& scene, const PointSensor& sensor, std::uint64_t seed,
                              int frame) {
   std::vector<Point> points;
-  const RandomKey noise = random_key(seed, static_cast<std::uint64_t>(frame), Purpose::scenario);
-  const double sigma = std::sqrt(sensor.variance);
   for (const TruthPoint& target : truth_at(scene, frame)) {
-    const Normals4 n = random_normals(noise, static_cast<std::uint32_t>(target.track_id));
-    double x = target.x + sigma * static_cast<double>(n.n[0]);
-    double y = target.y + sigma * static_cast<double>(n.n[1]);
-    if (sensor.rounds) x = std::round(x), y = std::round(y);
-    points.push_back({static_cast<float>(x), static_cast<float>(y), sensor.amplitude});
+    points.push_back(point_of(target, sensor, seed));
   }
   const RandomKey clutter = random_key(seed, static_cast<std::uint64_t>(frame), Purpose::clutter);
   const int count = frame >= sensor.clutter_from ? sensor.clutter : 0;

@@ -21,7 +21,10 @@ struct PointSensor {
   double clutter_density(const Scene& scene) const;  ///< [1/px^2]
 };
 
-/// The points of `frame`, row by row. A function of its arguments.
+/// The point of a target.
+Point point_of(const TruthPoint& target, const PointSensor& sensor, std::uint64_t seed);
+
+/// All points of `frame`, row by row. A function of its arguments.
 std::vector<Point> points_at(const Scene& scene, const PointSensor& sensor, std::uint64_t seed,
                              int frame);
 

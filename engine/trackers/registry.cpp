@@ -9,6 +9,7 @@
 #include "glint/engine/trackers/imm_pda_ai.hpp"
 #include "glint/engine/trackers/mm_pf.hpp"
 #include "glint/engine/trackers/mm_phd.hpp"
+#include "glint/engine/trackers/pmht.hpp"
 #include "glint/engine/trackers/smc_phd.hpp"
 #include "glint/engine/trackers/viterbi.hpp"
 
@@ -43,6 +44,14 @@ constexpr std::array kTrackers{
         "imm-jpda", "points by multiple models and joint probabilistic association", Feed::points),
     entry<ImmJpda, ImmMscanJpdaConfig>("imm-mscan-jpda", "imm-jpda over a window of scans",
                                        Feed::points),
+    entry<Pmht, PmhtConfig>(
+        "pmht-imm", "points by PMHT over all targets, models mixed: constant acceleration, Singer",
+        Feed::points),
+    entry<Pmht, PmhtCaConfig>("pmht-ca", "pmht-imm with constant acceleration alone", Feed::points),
+    entry<Pmht, PmhtSingerConfig>("pmht-singer", "pmht-imm with Singer's model alone",
+                                  Feed::points),
+    entry<Pmht, PmhtHomotheticConfig>(
+        "pmht-homothetic", "pmht-imm with one model at two levels of process noise", Feed::points),
     entry<Viterbi, ViterbiConfig>(
         "viterbi", "dynamic programming: the best paths through a sliding window of frames"),
 };

@@ -59,8 +59,9 @@ TEST_P(Determinism, SerialDeviceRepeatsItself) {
 
 // The frames are the same: whatever differs comes from the tracker's own random numbers.
 TEST_P(Determinism, TheSeedMattersToThoseThatDrawRandomNumbers) {
-  static constexpr std::array<std::string_view, 5> kDrawNone{"h-pmht", "imm-pda-ai", "viterbi",
-                                                             "imm-jpda", "imm-mscan-jpda"};
+  static constexpr std::array<std::string_view, 9> kDrawNone{
+      "h-pmht",   "imm-pda-ai", "viterbi",     "imm-jpda",       "imm-mscan-jpda",
+      "pmht-imm", "pmht-ca",    "pmht-singer", "pmht-homothetic"};
   const Device device = Device::tbb(2);
   const auto log = [&](std::uint64_t seed) {
     FramesConfig frames;

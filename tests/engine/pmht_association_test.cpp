@@ -149,16 +149,15 @@ TEST(PmhtMStep, IsTheMaximumOverAllPointsByTheirShares) {
   EXPECT_LT((updated.covariance - information.inverse()).norm(), 1e-11);
 }
 
-TEST(PmhtMStep, LikelihoodOfAModelIsThatOfItsCentroid) {
+TEST(PmhtMStep, LikelihoodOfAModelIsThatOfItsCentroidTimesItsPoints) {
   const Gaussian<4> prior = predicted({10, 10});
   const PmhtCentroid centroid{0.5, {12, 9}};
   const Eigen::Matrix2d s = measured() * prior.covariance * measured().transpose() +
                             kVariance / 0.5 * Eigen::Matrix2d::Identity();
   const Eigen::Vector2d v(2, -1);
-  EXPECT_NEAR(
-      pmht_log_likelihood(prior, centroid, kVariance),
-      -v.dot(s.inverse() * v) / 2 - std::log(2 * std::numbers::pi * std::sqrt(s.determinant())),
-      1e-12);
+  const double density =
+      std::exp(-v.dot(s.inverse() * v) / 2) / (2 * std::numbers::pi * std::sqrt(s.determinant()));
+  EXPECT_NEAR(pmht_log_likelihood(prior, centroid, kVariance), std::log(0.5 * density), 1e-12);
 }
 
 TEST(PmhtMStep, WithoutPointsThePredictionStays) {

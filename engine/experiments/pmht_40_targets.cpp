@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "glint/engine/experiments/monte_carlo.hpp"
+#include "glint/engine/experiments/pmht.hpp"
+#include "glint/engine/experiments/point_run.hpp"
+#include "glint/engine/scenario/scenes.hpp"
+
+namespace glint {
+namespace {
+
+struct Case {
+  const char* name;
+  double percent;  // clutter
+  double most_lost;
+};
+
+/// Each run has paths of its own.
+FollowedRun follow(const Case& c, std::uint64_t seed) {
+  PmhtClipScene config;
+  config.clip = "crowd", config.variant = static_cast<int>(seed);
+  const Scene scene = make_scene(config);
+  PointSensor sensor;
+  sensor.clutter = PointSensor::clutter_of(scene, c.percent);
+  return follow_points(scene, sensor, started_on_targets(sensor.clutter_density(scene)), seed);
+}
+
+std::vector<double> mean_errors(const std::vector<FollowedRun>& runs) {
+  std::vector<double> means;
+  for (const FollowedRun& run : runs) {
+    std::vector<double> errors;
+    for (const FollowedTarget& target : run) {
+      if (!target.lost) errors.push_back(target.prediction_error);
+    }
+    means.push_back(summarise(errors).mean);
+  }
+  return means;
+}
+
+}  // namespace
+
+ExperimentResult run_pmht_40_targets(const ExperimentOptions& options, Workers& workers) {
+  constexpr std::array kCases{Case{"no clutter", 0, 1.5}, Case{".02 % clutter", 0.02, 1.5}};
+  const auto runs = run_cases(kCases.size(), static_cast<std::size_t>(options.runs), workers,
+                              options.progress, [&](std::size_t which, std::size_t run) {
+                                return follow(kCases[which], options.seed + run);
+                              });
+  ExperimentResult result;
+  for (std::size_t i = 0; i < kCases.size(); ++i) {
+    std::vector<double> lost = lost_shares(runs[i]);
+    for (double& share : lost) share *= 40.0 / 100;
+    const Band band{{}, kCases[i].most_lost};
+    result.rows.push_back(point_row(kCases[i].name, "targets lost of 40", lost, {}, band));
+    result.rows.push_back(point_row(kCases[i].name, "prediction [px]", mean_errors(runs[i])));
+  }
+  return result;
+}
+
+}  // namespace glint
