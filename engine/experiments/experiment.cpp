@@ -36,6 +36,8 @@ constexpr std::array kExperiments{
                     run_pmht_monte_carlo},
     ExperimentEntry{"pmht-40targets", "forty targets at once: P-PMHT section 4", 40,
                     run_pmht_40_targets},
+    ExperimentEntry{"mmpf-tableA", "particle filters on fast targets: P-MMPF table A", 30,
+                    run_mmpf_table_a},
 };
 
 }  // namespace

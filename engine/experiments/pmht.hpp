@@ -15,4 +15,7 @@ ExperimentResult run_pmht_monte_carlo(const ExperimentOptions& options, Workers&
 /// Forty targets.
 ExperimentResult run_pmht_40_targets(const ExperimentOptions& options, Workers& workers);
 
+/// P-MMPF table A: particle filters on the same clips.
+ExperimentResult run_mmpf_table_a(const ExperimentOptions& options, Workers& workers);
+
 }  // namespace glint

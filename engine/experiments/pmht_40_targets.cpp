@@ -24,7 +24,9 @@ FollowedRun follow(const Case& c, std::uint64_t seed) {
   const Scene scene = make_scene(config);
   PointSensor sensor;
   sensor.clutter = PointSensor::clutter_of(scene, c.percent);
-  return follow_points(scene, sensor, started_on_targets(sensor.clutter_density(scene)), seed);
+  PmhtConfig tracker;
+  start_on_targets(tracker, sensor.clutter_density(scene));
+  return follow_points(scene, sensor, tracker, seed);
 }
 
 std::vector<double> mean_errors(const std::vector<FollowedRun>& runs) {

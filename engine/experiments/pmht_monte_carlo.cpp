@@ -60,7 +60,8 @@ void add_normalised(const std::vector<FollowedRun>& runs, ExperimentResult& resu
 }  // namespace
 
 ExperimentResult run_pmht_monte_carlo(const ExperimentOptions& options, Workers& workers) {
-  std::array<PmhtConfig, 2> configs{started_on_targets(0), started_on_targets(0)};
+  std::array<PmhtConfig, 2> configs;
+  for (PmhtConfig& config : configs) start_on_targets(config, 0);
   configs[1].measurement_variance = 2.25;
   const auto runs =
       run_cases(configs.size(), static_cast<std::size_t>(options.runs), workers, options.progress,

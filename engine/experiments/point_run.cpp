@@ -83,14 +83,17 @@ FollowedRun follow_points(const Scene& scene, const PointSensor& sensor, const P
   return follow<Pmht>(scene, sensor, config, seed);
 }
 
-PmhtConfig started_on_targets(double clutter_density) {
+FollowedRun follow_points(const Scene& scene, const PointSensor& sensor,
+                          const MmpfPmhtConfig& config, std::uint64_t seed) {
+  return follow<MmpfPmht>(scene, sensor, config, seed);
+}
+
+void start_on_targets(PmhtConfig& config, double clutter_density) {
   constexpr double kNone = 1e-9;  // [1/px^2]
-  PmhtConfig config;
   config.initiate = false;
   config.merge_scans = 0;
   config.life.halt_misses = 0, config.life.halt_existence = 0;
   config.clutter_density = clutter_density > 0 ? clutter_density : kNone;
-  return config;
 }
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "glint/engine/experiments/experiment.hpp"
 #include "glint/engine/scenario/point_sensor.hpp"
-#include "glint/engine/trackers/pmht.hpp"
+#include "glint/engine/trackers/mmpf_pmht.hpp"
 
 namespace glint {
 
@@ -26,8 +26,11 @@ using FollowedRun = std::vector<FollowedTarget>;  ///< by target
 FollowedRun follow_points(const Scene& scene, const PointSensor& sensor, const PmhtConfig& config,
                           std::uint64_t seed);
 
-/// Settings of the papers: tracks start where they are told, and never end.
-PmhtConfig started_on_targets(double clutter_density);
+FollowedRun follow_points(const Scene& scene, const PointSensor& sensor,
+                          const MmpfPmhtConfig& config, std::uint64_t seed);
+
+/// The settings of the papers: tracks start where they are told, and never end.
+void start_on_targets(PmhtConfig& config, double clutter_density);
 
 /// Prediction errors of a target by run, NaN where it was lost.
 std::vector<double> prediction_errors(const std::vector<FollowedRun>& runs, std::size_t target);

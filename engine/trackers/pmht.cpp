@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "glint/engine/trackers/mmpf_pmht.hpp"
+
 namespace glint {
 namespace {
 
@@ -14,6 +16,11 @@ constexpr double kHit = 0.25;     // number of points of a track that was seen
 KalmanBank bank_of(const PmhtConfig& config, const PmhtStart& start, std::uint64_t /*seed*/,
                    std::int64_t /*track*/) {
   return {pmht_bank(config, start), config.measurement_variance};
+}
+
+ParticleBank bank_of(const MmpfPmhtConfig& config, const PmhtStart& start, std::uint64_t seed,
+                     std::int64_t track) {
+  return {pmht_bank(config, start), config.particles, config.measurement_variance, seed, track};
 }
 
 Eigen::Vector2d position_of(const Gaussian<4>& state) { return {state.mean(0), state.mean(2)}; }
@@ -29,9 +36,11 @@ void PmhtArea::see(const Scan& scan) {
   }
 }
 
-double PmhtArea::size() const {
+double PmhtArea::size(double margin) const {
   if (frame_ > 0) return frame_;
-  return box_.isEmpty() ? 1 : std::max(box_.volume(), 1.0);
+  if (box_.isEmpty()) return 1;
+  const Eigen::Vector2d sides = box_.sizes() + Eigen::Vector2d::Constant(2 * margin);
+  return std::max(sides.prod(), 1.0);
 }
 
 template <class Config, class Bank>
@@ -80,7 +89,7 @@ void PmhtTracker<Config, Bank>::take_points(const Scan& scan) {
   const double false_points = static_cast<double>(points_.size()) - static_cast<double>(of_targets);
   settings_.origins.clutter = config_.clutter_density > 0
                                   ? config_.clutter_density
-                                  : std::max(false_points, 1.0) / area_.size();
+                                  : std::max(false_points, 1.0) / area_.size(config_.gate);
 }
 
 template <class Config, class Bank>
@@ -227,5 +236,6 @@ void PmhtTracker<Config, Bank>::report(const StepTime& at, TrackLog& log) {
 }
 
 template class PmhtTracker<PmhtConfig, KalmanBank>;
+template class PmhtTracker<MmpfPmhtConfig, ParticleBank>;
 
 }  // namespace glint

@@ -68,11 +68,11 @@ struct PmhtStart {
 std::vector<std::string> pmht_mode_names(const PmhtConfig& config);
 Imm pmht_bank(const PmhtConfig& config, const PmhtStart& start);
 
-/// Where points may lie: the frame, or without one the box about all points so far.
+/// Where points may lie: the frame, or without one the box about all points so far and a margin.
 class PmhtArea {
  public:
   void see(const Scan& scan);
-  double size() const;  ///< [px^2], at least 1
+  double size(double margin) const;  ///< [px^2], at least 1
 
  private:
   Eigen::AlignedBox2d box_;

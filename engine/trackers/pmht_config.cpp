@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "glint/engine/trackers/pmht.hpp"
+#include "glint/engine/trackers/mmpf_pmht.hpp"
 
 namespace glint {
 namespace {
@@ -56,6 +56,11 @@ void describe(FieldList& f, PmhtConfig& c) {
   describe(f, c.life);
 }
 
+void describe(FieldList& f, MmpfPmhtConfig& c) {
+  describe(f, static_cast<PmhtConfig&>(c));
+  f("particles", c.particles, 1, 1000000, "", "of each model of a target");
+}
+
 namespace {
 
 /// "ca+singer" to {"ca", "singer"}.
@@ -89,9 +94,8 @@ Mode<Model> mode_at(const Model& model, const Gaussian<3>& x, const Gaussian<3>&
   Mode<Model> mode{model, {}};
   mode.belief.mean << x.mean.template head<kParts>(), y.mean.template head<kParts>();
   mode.belief.covariance.setZero();
-  const auto& cx = x.covariance;
   mode.belief.covariance.template topLeftCorner<kParts, kParts>() =
-      cx.template topLeftCorner<kParts, kParts>();
+      x.covariance.template topLeftCorner<kParts, kParts>();
   mode.belief.covariance.template bottomRightCorner<kParts, kParts>() =
       y.covariance.template topLeftCorner<kParts, kParts>();
   return mode;

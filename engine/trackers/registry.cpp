@@ -9,6 +9,7 @@
 #include "glint/engine/trackers/imm_pda_ai.hpp"
 #include "glint/engine/trackers/mm_pf.hpp"
 #include "glint/engine/trackers/mm_phd.hpp"
+#include "glint/engine/trackers/mmpf_pmht.hpp"
 #include "glint/engine/trackers/pmht.hpp"
 #include "glint/engine/trackers/smc_phd.hpp"
 #include "glint/engine/trackers/viterbi.hpp"
@@ -44,6 +45,9 @@ constexpr std::array kTrackers{
         "imm-jpda", "points by multiple models and joint probabilistic association", Feed::points),
     entry<ImmJpda, ImmMscanJpdaConfig>("imm-mscan-jpda", "imm-jpda over a window of scans",
                                        Feed::points),
+    entry<MmpfPmht, MmpfPmhtConfig>(
+        "mmpf-pmht", "points by PMHT over all targets, a particle filter a motion model",
+        Feed::points),
     entry<Pmht, PmhtConfig>(
         "pmht-imm", "points by PMHT over all targets, models mixed: constant acceleration, Singer",
         Feed::points),

@@ -17,9 +17,9 @@ namespace glint {
 namespace {
 
 /// A tracker, and scans of nothing but points.
-class Run {
+class PointRun {
  public:
-  explicit Run(const PmhtConfig& config = {}) : tracker(config, Device::serial(), 1) {}
+  explicit PointRun(const PmhtConfig& config = {}) : tracker(config, Device::serial(), 1) {}
   void step(std::int64_t frame, double time, const std::vector<Point>& points) {
     Scan scan;
     scan.frame = frame, scan.time = time, scan.points = points;
@@ -46,7 +46,7 @@ PmhtConfig told() {
 }
 
 TEST(Pmht, FollowsATargetThatItIsStartedOn) {
-  Run run(told());
+  PointRun run(told());
   run.tracker.start(20, 50, 3, 1);
   for (int frame = 0; frame < 12; ++frame) {
     run.step(frame, {straight(frame)});
@@ -67,7 +67,7 @@ TEST(Pmht, FollowsATargetThatItIsStartedOn) {
 }
 
 TEST(Pmht, TheStartIsThatOfThePaper) {
-  Run run(told());
+  PointRun run(told());
   run.tracker.start(20, 50, 3, 1);
   run.step(0, {});
   EXPECT_EQ(run.at(0)[0].var_x, 9);
@@ -78,7 +78,7 @@ TEST(Pmht, TheStartIsThatOfThePaper) {
 
 TEST(Pmht, MissingScansAndScansWithoutPointsCoast) {
   for (const bool empty : {false, true}) {
-    Run run(told());
+    PointRun run(told());
     run.tracker.start(20, 50, 3, 1);
     for (int frame = 0; frame < 20; ++frame) {
       const bool gap = frame >= 8 && frame < 11;
@@ -100,7 +100,7 @@ TEST(Pmht, MissingScansAndScansWithoutPointsCoast) {
 TEST(Pmht, TimeStampsMayBeIrregular) {
   PmhtConfig config = told();
   config.clock = "seconds";
-  Run run(config);
+  PointRun run(config);
   run.tracker.start(20, 50, 30, 10);
   double time = 0;
   for (int frame = 0; frame < 20; ++frame) {
@@ -114,8 +114,8 @@ TEST(Pmht, TimeStampsMayBeIrregular) {
 }
 
 TEST(Pmht, TheOrderOfPointsDoesNotMatter) {
-  Run a(told()), b(told());
-  for (Run* run : {&a, &b}) {
+  PointRun a(told()), b(told());
+  for (PointRun* run : {&a, &b}) {
     run->tracker.start(20, 50, 3, 1), run->tracker.start(20, 60, 3, 1);
     run->step(0, {});
   }
@@ -131,7 +131,7 @@ TEST(Pmht, TheOrderOfPointsDoesNotMatter) {
 
 TEST(Pmht, BadPointsAreLeftOut) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  Run run, clean;
+  PointRun run, clean;
   for (int frame = 0; frame < 8; ++frame) {
     run.step(frame, {{kNan, 5, 9}, straight(frame), {5, kNan, 9}});
     clean.step(frame, {straight(frame)});
@@ -141,7 +141,7 @@ TEST(Pmht, BadPointsAreLeftOut) {
 }
 
 TEST(Pmht, StartsConfirmsAndEndsATrackByItself) {
-  Run run;
+  PointRun run;
   for (int frame = 0; frame < 25; ++frame) {
     const bool there = frame >= 3 && frame < 15;
     run.step(frame, there ? std::vector{straight(frame)} : std::vector<Point>{});
@@ -166,7 +166,7 @@ TEST(Pmht, StartsConfirmsAndEndsATrackByItself) {
 TEST(Pmht, DimPointsStartNothingAndUnknownOnesMay) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   for (const float amplitude : {2.0f, kNan}) {
-    Run run;
+    PointRun run;
     for (int frame = 0; frame < 8; ++frame) {
       Point p = straight(frame);
       p.amplitude = amplitude;
@@ -177,7 +177,7 @@ TEST(Pmht, DimPointsStartNothingAndUnknownOnesMay) {
 }
 
 TEST(Pmht, TwoTracksOnOneTargetBecomeOne) {
-  Run run;
+  PointRun run;
   run.tracker.start(20, 50, 3, 1), run.tracker.start(21, 50, 3, 1);
   for (int frame = 0; frame < 20; ++frame) run.step(frame, {straight(frame)});
   EXPECT_EQ(run.at(5).size(), 2u);
@@ -191,7 +191,7 @@ TEST(Pmht, FindsTheTargetsOfAClipInClutterAndLittleElse) {
   const Scene scene = make_scene(clip);
   PointSensor sensor;
   sensor.clutter = PointSensor::clutter_of(scene, 0.01), sensor.clutter_from = 0;
-  Run run;
+  PointRun run;
   for (int frame = 0; frame < scene.frames; ++frame) {
     run.step(frame, points_at(scene, sensor, 4, frame));
   }
@@ -254,7 +254,7 @@ TEST(TrackLife, ConfirmsByHitsAndExistenceTogetherInTime) {
 
 TEST(TrackLife, EndsByMissesOrByExistenceUnlessTold) {
   TrackLifeConfig config;
-  config.halt_misses = 3;
+  config.halt_misses = 3, config.halt_existence = 0.02;
   TrackLife misses(config, true), fades(config, true);
   for (int scan = 0; scan < 2; ++scan)
     misses.see(config, false, 1, 1), fades.see(config, true, 0.01, 1);
