@@ -81,7 +81,7 @@ void add_rows(const Line& line, std::size_t clip, const std::vector<FollowedRun>
   const double attained = line.attained[clip];
   result.rows.push_back(point_row(name, "prediction [px]",
                                   both(prediction_errors(runs, 0), prediction_errors(runs, 1)), {},
-                                  Band{attained - line.tolerance, attained + line.tolerance}));
+                                  Band{{}, attained + line.tolerance}));
   result.rows.push_back(point_row(name, "estimate [px]",
                                   both(estimation_errors(runs, 0), estimation_errors(runs, 1))));
 }
