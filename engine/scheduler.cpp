@@ -80,6 +80,13 @@ Token* Scheduler::State::read(Source& source, const std::stop_token& stop) {
 
 void Scheduler::State::prepare(Token& token) {
   preparing.pass(token, [&] {
+    if (token.source->points) {
+      token.points = std::move(*token.source->points);
+      token.scan.frame = token.frame, token.scan.time = token.source->time;
+      token.scan.points = token.points;
+      token.source.reset();
+      return;
+    }
     token.scan = preparer.prepare(token.source->pixels, token.frame, token.source->time);
     token.source.reset();
     if (!finds_points) return;

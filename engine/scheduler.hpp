@@ -14,11 +14,13 @@
 
 namespace glint {
 
-/// A raw frame that owns its pixels.
+/// A raw frame that owns its pixels, or the points of a scan without a frame.
 struct SourceFrame {
   RawPixels pixels;                   ///< points into `owner`
   std::shared_ptr<const void> owner;  ///< keeps the pixels alive; let go of on any thread
   double time = 0;                    ///< [s]
+  /// Given instead of pixels by sources that know points alone.
+  std::optional<std::vector<Point>> points;
 };
 
 /// Where frames come from.

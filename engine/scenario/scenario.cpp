@@ -112,7 +112,8 @@ std::optional<SourceFrame> SceneSource::next() {
   auto image = std::make_shared<const Image<float>>(render(scene_, seed_, frame_));
   const FrameView view = image->view();
   const double time = frame_++ * scene_.interval;
-  return SourceFrame{{view.data, view.width, view.height, 1, view.pitch}, std::move(image), time};
+  return SourceFrame{
+      {view.data, view.width, view.height, 1, view.pitch}, std::move(image), time, {}};
 }
 
 }  // namespace glint

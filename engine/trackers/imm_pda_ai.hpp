@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "glint/engine/config.hpp"
 #include "glint/engine/filters/imm.hpp"
 #include "glint/engine/models/amplitude.hpp"
@@ -26,7 +28,7 @@ struct ImmPdaAiConfig {
   // Association.
   double detection = 0.9;
   double gate = 9.21;          ///< squared distance in sigmas; 9.21 holds 99 %
-  double clutter_density = 0;  ///< [1/px^2]; 0 = auto, points / area of the frame
+  double clutter_density = 0;  ///< [1/px^2]; 0 = auto, points / area of the frame or of all points
   // How tracks come and go.
   bool initiate = true;
   double start_amplitude = 5;                ///< [sigma]
@@ -93,6 +95,7 @@ class ImmPdaAi : public Tracker {
 
   std::vector<Measurement> measurements_;
   double clutter_ = 0;              ///< [1/px^2]
+  Eigen::AlignedBox2d seen_;        ///< about all points of scans without frames
   double amplitude_threshold_ = 0;  ///< [sigma] that every measurement exceeds
   // Of the track at hand.
   std::vector<bool> gated_;

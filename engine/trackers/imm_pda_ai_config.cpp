@@ -20,8 +20,10 @@ void describe(FieldList& f, ImmPdaAiConfig& c) {
   f("stay", c.stay, 0, 1, "", "probability that a target keeps its model from scan to scan");
   f("detection", c.detection, 0.01, 0.9999, "", "probability that a target gives a point");
   f("gate", c.gate, 0.1, 1000, "", "squared distance of a point in sigmas; 9.21 holds 99 %");
-  f.automatic("clutter_density", c.clutter_density, 0, 1, "1/px^2",
-              "density of false points; auto is the number of points over the frame's area");
+  f.automatic(
+      "clutter_density", c.clutter_density, 0, 1, "1/px^2",
+      "density of false points; auto is the number of points over the frame's area, or over "
+      "that of the box about all points where there are no frames");
   f("initiate", c.initiate, "start tracks from points that are in no track's gate");
   f("start_amplitude", c.start_amplitude, -1000, 1000, "sigma", "least amplitude of a start");
   f("velocity_sd", c.velocity_sd, 0, 1000, "px/frame", "spread of a new target's velocity");

@@ -54,7 +54,11 @@ void ImmPdaAi::take_units(FrameView frame) {
 }
 
 void ImmPdaAi::set_clutter(const Scan& scan) {
-  const double area = area_of(scan);
+  double area = area_of(scan);
+  if (area == 0) {
+    for (const Measurement& m : measurements_) seen_.extend(m.position);
+    area = seen_.isEmpty() ? 0 : seen_.volume();
+  }
   const auto count = static_cast<double>(std::max<std::size_t>(measurements_.size(), 1));
   clutter_ = config_.clutter_density > 0 ? config_.clutter_density : count / std::max(area, count);
 }

@@ -103,7 +103,25 @@ FramePreparer make_preparer(const FrameJob& job) {
   return preparer;
 }
 
+void refuse_what_needs_frames(const FrameJob& job) {
+  const std::string& input = job.inputs.front();
+  for (const std::string& tracker : job.trackers) {
+    if (find_tracker(tracker).feed == Feed::frames) {
+      throw UsageError(input + ": holds points, and " + tracker +
+                       " needs frames; give frames or a tracker of points, such as imm-pda-ai");
+    }
+  }
+  if (job.run().add_noise > 0) {
+    throw UsageError(input + ": holds points, and noise is for frames; leave --add-noise out");
+  }
+}
+
 }  // namespace
+
+bool holds_points(const FrameJob& job) {
+  const std::string& input = job.inputs.front();
+  return input.ends_with(".csv") || input.ends_with(".jsonl");
+}
 
 void add_run_options(CLI::App& command, FrameOptions& options) {
   command.add_option("--profile", options.profile, profile_help());
@@ -121,7 +139,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
   command
       .add_option("INPUT", options.inputs,
                   "video, images (folder, pattern like f_%04d.png, list, multi-page TIFF), FITS "
-                  "files or cubes, .npy cube, or scene:NAME")
+                  "files or cubes, .npy cube, points (.csv, .jsonl), or scene:NAME")
       ->required();
   add_run_options(command, options);
   add_run_option(command, options, "--fps", "fps",
@@ -163,6 +181,7 @@ std::unique_ptr<Source> open_frames(const FrameJob& job) {
     scene = section_named(job.sections, "scenes." + std::string(*name));
     options.scene = &scene;
   }
+  if (holds_points(job)) refuse_what_needs_frames(job);
   auto source = open_source(job.inputs, options);
   if (run.add_noise == 0) return source;
   return std::make_unique<NoisySource>(std::move(source), run.add_noise, seed, job.device);

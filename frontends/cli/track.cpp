@@ -83,6 +83,10 @@ void track(TrackOptions options) {
   }
   const FrameJob job = settle(options.frames);
   if (job.trackers.empty()) throw UsageError("give --tracker NAME; known are " + tracker_names());
+  if (holds_points(job) && !(options.outputs.overlay.empty() && options.outputs.picture.empty())) {
+    throw UsageError(job.inputs.front() +
+                     ": holds points, no frames to draw on; leave --overlay and --picture out");
+  }
   const auto source = open_frames(job);
   Scheduler scheduler = make_scheduler(job);
   for (const std::string& name : job.trackers) {
@@ -144,6 +148,7 @@ void add_track(CLI::App& app) {
       "  glint track frames/f_%04d.png --fps 50 --tracker smc-phd --set frames.polarity=dark\n"
       "  glint track clip.mp4 --tracker smc-phd --add-noise 53 --seed 2 --out noisy.csv\n"
       "  glint track clip.mp4 --tracker mm-phd --profile L --out tracks.csv\n"
+      "  glint track points.csv --tracker imm-pda-ai --out tracks.csv\n"
       "  glint track clip.mp4 --config tracks.csv      repeats the run that wrote it\n"
       "All settings: glint config TRACKER");
   command->callback([options] { track(*options); });

@@ -15,6 +15,7 @@ class CsvRow {
   CsvRow(const std::string& path, std::int64_t line, std::span<const std::string_view> columns,
          std::span<const std::string_view> cells)
       : path_(path), line_(line), columns_(columns), cells_(cells) {}
+  std::int64_t line() const { return line_; }
   std::string_view text(std::size_t column) const { return cells_[column]; }
   /// NaN for an empty cell, "nan" and a column that the file lacks. Throws for anything else that
   /// is no number.

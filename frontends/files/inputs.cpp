@@ -24,13 +24,14 @@ std::string extension_of(std::string_view path) {
 
 std::optional<InputKind> known_kind(std::string_view path) {
   static constexpr std::pair<std::string_view, InputKind> kKinds[] = {
-      {".png", InputKind::image}, {".jpg", InputKind::image},  {".jpeg", InputKind::image},
-      {".pgm", InputKind::image}, {".ppm", InputKind::image},  {".pnm", InputKind::image},
-      {".bmp", InputKind::image}, {".tif", InputKind::tiff},   {".tiff", InputKind::tiff},
-      {".mp4", InputKind::video}, {".avi", InputKind::video},  {".mkv", InputKind::video},
-      {".mov", InputKind::video}, {".webm", InputKind::video}, {".m4v", InputKind::video},
-      {".fits", InputKind::fits}, {".fit", InputKind::fits},   {".fts", InputKind::fits},
-      {".fz", InputKind::fits},   {".npy", InputKind::npy}};
+      {".png", InputKind::image},   {".jpg", InputKind::image},  {".jpeg", InputKind::image},
+      {".pgm", InputKind::image},   {".ppm", InputKind::image},  {".pnm", InputKind::image},
+      {".bmp", InputKind::image},   {".tif", InputKind::tiff},   {".tiff", InputKind::tiff},
+      {".mp4", InputKind::video},   {".avi", InputKind::video},  {".mkv", InputKind::video},
+      {".mov", InputKind::video},   {".webm", InputKind::video}, {".m4v", InputKind::video},
+      {".fits", InputKind::fits},   {".fit", InputKind::fits},   {".fts", InputKind::fits},
+      {".fz", InputKind::fits},     {".npy", InputKind::npy},    {".csv", InputKind::points},
+      {".jsonl", InputKind::points}};
   const std::string extension = extension_of(path);
   for (const auto& [name, kind] : kKinds) {
     if (name == extension) return kind;
@@ -97,7 +98,8 @@ std::vector<std::string> expand_folder(const fs::path& folder) {
   std::vector<std::string> files;
   std::set<std::string> extensions;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (!entry.is_regular_file() || !known_kind(entry.path().string())) continue;
+    const auto kind = known_kind(entry.path().string());
+    if (!entry.is_regular_file() || !kind || kind == InputKind::points) continue;
     files.push_back(entry.path().string());
     extensions.insert(extension_of(files.back()));
   }
@@ -133,7 +135,7 @@ InputKind kind_of(std::string_view path) {
   throw UsageError(
       std::string(path) +
       ": unknown kind of file; known are mp4 avi mkv mov webm m4v (video), png jpg pgm "
-      "ppm bmp tif (images), fits fit fts fz, npy, and scene:NAME");
+      "ppm bmp tif (images), fits fit fts fz, npy, csv jsonl (points), and scene:NAME");
 }
 
 bool natural_less(std::string_view a, std::string_view b) {

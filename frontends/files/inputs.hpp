@@ -10,7 +10,7 @@
 namespace glint {
 
 /// What a file holds, by its name.
-enum class InputKind { image, tiff, video, fits, npy };
+enum class InputKind { image, tiff, video, fits, npy, points };
 
 /// Throws UsageError that lists the known extensions if it is none of them.
 InputKind kind_of(std::string_view path);

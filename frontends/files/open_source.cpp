@@ -9,6 +9,7 @@
 #include "glint/frontends/files/fits.hpp"
 #include "glint/frontends/files/inputs.hpp"
 #include "glint/frontends/files/npy.hpp"
+#include "glint/frontends/files/points_source.hpp"
 #include "glint/frontends/files/sequence.hpp"
 #ifdef GLINT_WITH_OPENCV
 #include "glint/frontends/video/image_file.hpp"
@@ -67,6 +68,14 @@ std::unique_ptr<Source> open_source(std::span<const std::string> inputs,
     if (scene_name(input)) throw UsageError(input + ": a scene must be the only input");
   }
   std::vector<std::string> files = expand_inputs(inputs, options.warn);
+  if (files.size() == 1 && kind_of(files.front()) == InputKind::points) {
+    return open_points(files.front(), options.frame_rate);
+  }
+  for (const std::string& file : files) {
+    if (kind_of(file) == InputKind::points) {
+      throw UsageError(file + ": a file of points must be the only input");
+    }
+  }
   std::optional<std::int64_t> frames;  // known beforehand if every file is one frame
   if (std::ranges::all_of(files, [](auto& f) { return kind_of(f) == InputKind::image; })) {
     frames = static_cast<std::int64_t>(files.size());

@@ -24,7 +24,8 @@ struct SourceOptions {
 std::optional<std::string_view> scene_name(std::string_view input);
 
 /// Opens videos, images (sequences by folder, printf pattern or list; multi-page TIFF), FITS files
-/// and cubes, .npy cubes, or one "scene:NAME"; several inputs follow one another. 16-bit pixels
+/// and cubes, .npy cubes, one file of points (open_points()), or one "scene:NAME"; several inputs
+/// of frames follow one another. 16-bit pixels
 /// arrive as 16-bit. Throws UsageError for inputs that are not there or of no known kind, and
 /// std::runtime_error for damaged ones, here or from next(); the messages name the file.
 std::unique_ptr<Source> open_source(std::span<const std::string> inputs,

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/files/points_source.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "glint/frontends/files/csv.hpp"
+#include "glint/frontends/usage_error.hpp"
+
+namespace glint {
+namespace {
+
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array<std::string_view, 8> kColumns{"frame", "time",    "x",         "y",
+                                                   "range", "azimuth", "elevation", "amplitude"};
+enum Column : std::size_t { frame, time, x, y, range, azimuth, elevation, amplitude };
+
+/// Of one line; what is not there is NaN.
+using Row = std::array<double, kColumns.size()>;
+
+struct PointScan {
+  std::int64_t frame = 0;
+  double time = 0;  ///< [s]
+  std::vector<Point> points;
+};
+
+/// Gathers rows to scans.
+class Scans {
+ public:
+  Scans(std::string path, double interval) : path_(std::move(path)), interval_(interval) {}
+
+  void add(const Row& row, std::int64_t line) {
+    if (std::isnan(row[frame]) && std::isnan(row[time])) {
+      refuse(line, "has neither frame nor time; give one of them");
+    }
+    if (!std::isnan(row[frame]) &&
+        (!(row[frame] >= 0 && row[frame] < 0x1p53) || row[frame] != std::trunc(row[frame]))) {
+      refuse(line, fmt::format("frame must be a whole number from 0, got {}", row[frame]));
+    }
+    if (scans_.empty() || is_new(row)) begin(row, line);
+    if (const auto point = point_of(row, line)) scans_.back().points.push_back(*point);
+  }
+  std::vector<PointScan> take() { return std::move(scans_); }
+
+ private:
+  [[noreturn]] void refuse(std::int64_t line, const std::string& why) const {
+    throw std::runtime_error(fmt::format("{}:{}: {}", path_, line, why));
+  }
+
+  bool is_new(const Row& row) const {
+    if (!std::isnan(row[frame])) return static_cast<double>(scans_.back().frame) != row[frame];
+    return scans_.back().time != row[time];
+  }
+
+  void begin(const Row& row, std::int64_t line) {
+    PointScan next;
+    next.frame = scans_.empty() ? 0 : scans_.back().frame + 1;
+    if (!std::isnan(row[frame])) next.frame = static_cast<std::int64_t>(row[frame]);
+    next.time = std::isnan(row[time]) ? interval_ * static_cast<double>(next.frame) : row[time];
+    if (!scans_.empty() && next.frame <= scans_.back().frame) {
+      refuse(line, fmt::format("frame {} comes after frame {}; sort the rows by frame", next.frame,
+                               scans_.back().frame));
+    }
+    constexpr std::int64_t kFar = 1'000'000;
+    if (next.frame - (scans_.empty() ? 0 : scans_.back().frame) > kFar) {
+      refuse(line, fmt::format("frame {} is more than {} frames after the one before; give a time "
+                               "instead if it is no number of a frame",
+                               next.frame, kFar));
+    }
+    if (!scans_.empty() && !(next.time > scans_.back().time)) {
+      refuse(line, fmt::format("time {} comes after time {}; sort the rows by time", next.time,
+                               scans_.back().time));
+    }
+    scans_.push_back(std::move(next));
+  }
+
+  std::optional<Point> point_of(const Row& row, std::int64_t line) const {
+    const double strength = std::isnan(row[amplitude]) ? 1 : row[amplitude];
+    const auto at = [strength](double px, double py) {
+      return Point{static_cast<float>(px), static_cast<float>(py), static_cast<float>(strength)};
+    };
+    const bool has_x = !std::isnan(row[x]), has_range = !std::isnan(row[range]);
+    if (has_x != !std::isnan(row[y]) || has_range != !std::isnan(row[azimuth])) {
+      refuse(line, "holds half a position; give x and y, or range and azimuth, or none of them");
+    }
+    if (has_x) return at(row[x], row[y]);
+    if (!has_range) return std::nullopt;
+    const double up = std::isnan(row[elevation]) ? 0 : row[elevation];
+    const double ground = row[range] * std::cos(up);
+    return at(ground * std::cos(row[azimuth]), ground * std::sin(row[azimuth]));
+  }
+
+  std::string path_;
+  double interval_;
+  std::vector<PointScan> scans_;
+};
+
+void read_table(const std::string& path, Scans& scans) {
+  read_csv(path, {}, kColumns, [&](const CsvRow& cells) {
+    Row row;
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = cells.number(i);
+    scans.add(row, cells.line());
+  });
+}
+
+void read_lines(const std::string& path, Scans& scans) {
+  std::ifstream file(path);
+  if (!file) throw UsageError(path + ": cannot be read; check the path");
+  std::string text;
+  for (std::int64_t line = 1; std::getline(file, text); ++line) {
+    if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
+    Row row;
+    row.fill(kAbsent);
+    try {
+      const auto object = nlohmann::json::parse(text);
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const auto found = object.find(kColumns[i]);
+        if (found != object.end() && !found->is_null()) row[i] = found->get<double>();
+      }
+    } catch (const nlohmann::json::exception& e) {
+      throw std::runtime_error(fmt::format("{}:{}: must be one JSON object of numbers a line: {}",
+                                           path, line, e.what()));
+    }
+    scans.add(row, line);
+  }
+}
+
+/// Delivers a scan for every frame from 0 on, empty where the file has none.
+class PointsSource : public Source {
+ public:
+  PointsSource(std::vector<PointScan> scans, double frame_rate)
+      : scans_(std::move(scans)), frame_rate_(frame_rate) {}
+
+  std::optional<SourceFrame> next() override {
+    if (at_ == scans_.size()) return std::nullopt;
+    PointScan& scan = scans_[at_];
+    SourceFrame result;
+    if (frame_ < scan.frame) {
+      result.time = time_of_gap(scan);
+      result.points.emplace();
+    } else {
+      result.time = scan.time;
+      result.points = std::move(scan.points);
+      ++at_;
+    }
+    ++frame_;
+    return result;
+  }
+  std::optional<std::int64_t> frame_count() const override {
+    return scans_.empty() ? 0 : scans_.back().frame + 1;
+  }
+  double frame_rate() const override { return frame_rate_; }
+
+ private:
+  /// Evenly between the scans about it.
+  double time_of_gap(const PointScan& after) const {
+    const auto ahead = static_cast<double>(after.frame - frame_);
+    if (at_ == 0) return after.time - ahead / frame_rate_;
+    const PointScan& before = scans_[at_ - 1];
+    const auto whole = static_cast<double>(after.frame - before.frame);
+    return after.time - (after.time - before.time) * ahead / whole;
+  }
+
+  std::vector<PointScan> scans_;
+  double frame_rate_;
+  std::size_t at_ = 0;
+  std::int64_t frame_ = 0;
+};
+
+/// Scans a second on the whole.
+double rate_of(const std::vector<PointScan>& scans) {
+  if (scans.size() < 2) return 1;
+  return static_cast<double>(scans.back().frame - scans.front().frame) /
+         (scans.back().time - scans.front().time);
+}
+
+}  // namespace
+
+std::unique_ptr<Source> open_points(const std::string& path, std::optional<double> frame_rate) {
+  Scans gathered(path, 1 / frame_rate.value_or(1));
+  if (path.ends_with(".jsonl")) {
+    read_lines(path, gathered);
+  } else {
+    read_table(path, gathered);
+  }
+  std::vector<PointScan> scans = gathered.take();
+  const double rate = frame_rate.value_or(rate_of(scans));
+  return std::make_unique<PointsSource>(std::move(scans), rate);
+}
+
+}  // namespace glint
