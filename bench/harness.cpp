@@ -51,13 +51,6 @@ class Probe {
   Workers pair_{2};
 };
 
-// Time [s] that this thread had a core.
-double on_core() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 struct Samples {
   int calls = 1;  // a sample, so that it is long enough for the clock
   std::vector<double> clean, disturbed;
@@ -115,6 +108,12 @@ std::vector<Timing> time_all(const std::vector<Case>& cases, const Budget& budge
 }
 
 }  // namespace
+
+double on_core() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 std::string verdict(const Figure& figure) {
   const std::optional<double>&reached = figure.target.reached, &goal = figure.target.goal;

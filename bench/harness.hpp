@@ -9,6 +9,9 @@
 
 namespace glint::bench {
 
+/// Time [s] that this thread had a core.
+double on_core();
+
 /// Something to time: `units` of work a call, on so many threads.
 struct Case {
   std::string name;

@@ -27,25 +27,27 @@ void stamp(ImageView<std::uint16_t> image, double x, double y, double counts) {
 
 }  // namespace
 
-MemoryScene::MemoryScene(int width, int height) {
-  for (std::uint32_t i = 0; i < kNoises; ++i) frames_.push_back(sensor_frame(width, height, i));
-  for (int i = kNoises; i < kFrames; ++i) {
-    frames_.push_back(frames_[static_cast<std::size_t>(i % kNoises)]);
+MemoryScene::MemoryScene(int width, int height, const Content& content) {
+  for (int i = 0; i < content.frames; ++i) {
+    frames_.push_back(i < content.noises
+                          ? sensor_frame(width, height, static_cast<std::uint32_t>(i))
+                          : frames_[static_cast<std::size_t>(i % content.noises)]);
   }
   const double counts = kSensorScale * PointSpread::of(1).intensity_of_snr(kSnr);
-  for (int i = 0; i < kFrames; ++i) {
-    for (int target = 0; target < kTargets; ++target) {
-      const double x = (target + 0.5) * width / kTargets + kSpeed * i;
-      const double y = ((target * 7) % kTargets + 0.5) * height / kTargets;
+  const double room = width - kSpeed * content.frames;
+  for (int i = 0; i < content.frames; ++i) {
+    for (int target = 0; target < content.targets; ++target) {
+      const double x = (target + 0.5) * room / content.targets + kSpeed * i;
+      const double y = ((target * 7) % content.targets + 0.5) * height / content.targets;
       stamp(frames_[static_cast<std::size_t>(i)].view(), x, y, counts);
     }
   }
 }
 
 const Image<std::uint16_t>& MemoryScene::frame(std::int64_t index) const {
-  constexpr std::int64_t kPeriod = 2 * kFrames - 2;
-  const std::int64_t phase = index % kPeriod;
-  return frames_[static_cast<std::size_t>(phase < kFrames ? phase : kPeriod - phase)];
+  const auto frames = static_cast<std::int64_t>(frames_.size());
+  const std::int64_t period = 2 * frames - 2, phase = index % period;
+  return frames_[static_cast<std::size_t>(phase < frames ? phase : period - phase)];
 }
 
 std::optional<SourceFrame> MemorySource::next() {

@@ -9,11 +9,14 @@
 
 namespace glint::bench {
 
-/// Frames of sensor noise with a few slow targets, held in memory.
+/// Frames of sensor noise with slow targets, held in memory.
 class MemoryScene {
  public:
-  static constexpr int kFrames = 16, kNoises = 4, kTargets = 20;
-  MemoryScene(int width, int height);
+  /// Frames that differ, how many of them in their noise too, and how many targets.
+  struct Content {
+    int frames = 16, noises = 4, targets = 20;
+  };
+  MemoryScene(int width, int height, const Content& content);
   const Image<std::uint16_t>& frame(std::int64_t index) const;
 
  private:

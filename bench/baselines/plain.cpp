@@ -101,49 +101,4 @@ void two_pointer_resample(std::span<const float> weights, std::span<std::uint32_
   }
 }
 
-namespace {
-
-/// Integrals of N, u N and u^2 N over the cell around `pixel`, u from the mean.
-void cell_moments(double mean, double sigma, int pixel, double out[3]) {
-  const double a = pixel - 0.5 - mean, b = pixel + 0.5 - mean;
-  const double scale = 1 / (sigma * std::sqrt(2.0)), peak = sigma / std::sqrt(2 * M_PI);
-  const double at_a = peak * std::exp(-0.5 * a * a / (sigma * sigma));
-  const double at_b = peak * std::exp(-0.5 * b * b / (sigma * sigma));
-  out[0] = 0.5 * (std::erf(b * scale) - std::erf(a * scale));
-  out[1] = at_a - at_b;
-  out[2] = sigma * sigma * out[0] + a * at_a - b * at_b;
-}
-
-}  // namespace
-
-TargetSums full_frame_cell_integrals(FrameView frame, const HistogramTarget& target,
-                                     double background, std::span<double> mixture) {
-  const double flat = background / (static_cast<double>(frame.width) * frame.height);
-  double px[3], py[3];
-  const auto integrate = [&](int x, int y) {
-    cell_moments(target.x, target.sigma_x, x, px);
-    cell_moments(target.y, target.sigma_y, y, py);
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
-           static_cast<std::size_t>(x);
-  };
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x) {
-      const std::size_t cell = integrate(x, y);
-      mixture[cell] = flat + target.proportion * px[0] * py[0];
-    }
-  }
-  TargetSums s;
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x) {
-      const double weight = target.proportion * frame(x, y) / mixture[integrate(x, y)];
-      s.count += weight * px[0] * py[0];
-      s.x += weight * px[1] * py[0], s.y += weight * px[0] * py[1];
-      s.xx += weight * px[2] * py[0], s.yy += weight * px[0] * py[2];
-    }
-  }
-  s.x = target.x + s.x / s.count, s.y = target.y + s.y / s.count;
-  s.xx /= s.count, s.yy /= s.count;
-  return s;
-}
-
 }  // namespace glint::bench

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "glint/kernels/cell_integrals/cell_integrals.hpp"
 #include "glint/kernels/core/frame.hpp"
 #include "glint/kernels/core/particles.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
@@ -25,10 +24,5 @@ void std_propagate(Particles& particles, std::size_t count, double noise, double
 
 /// Systematic resampling with one running sum.
 void two_pointer_resample(std::span<const float> weights, std::span<std::uint32_t> ancestors);
-
-/// One target's H-PMHT sums over every cell of the frame in double: the mixture first, then the
-/// moments, each cell's integrals from its own erf and exp.
-TargetSums full_frame_cell_integrals(FrameView frame, const HistogramTarget& target,
-                                     double background, std::span<double> mixture);
 
 }  // namespace glint::bench

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "glint/bench/baselines/plain.hpp"
+#include "glint/bench/baselines/full_frame_hpmht.hpp"
 #include "glint/bench/data.hpp"
 #include "glint/bench/kernels/suites.hpp"
 #include "glint/kernels/core/random.hpp"
@@ -62,8 +62,8 @@ void add_full_frame(Suite& suite, const std::shared_ptr<Scene>& scene) {
       std::make_shared<std::vector<double>>(static_cast<std::size_t>(scene->frame.width()) *
                                             static_cast<std::size_t>(scene->frame.height()));
   suite.add({"full frame in double", 1, 1, [scene, mixture] {
-               scene->sums[0] =
-                   full_frame_cell_integrals(scene->frame, scene->targets[0], 0.7, *mixture);
+               scene->sums[0] = full_frame_cell_integrals(scene->frame, 1, scene->targets[0], 0.7,
+                                                          *mixture, scene->mixture);
              }});
 }
 

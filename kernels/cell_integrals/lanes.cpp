@@ -33,9 +33,12 @@ TargetProfile profile(const LaneTarget& t, float* storage) {
           axis_profile(t.top, t.sigma_y, height, storage + axis_size(width))};
 }
 
-/// z of sixteen pixels, of which `n` may be read; zero for dark ones and for those not finite.
-GLINT_INLINE Wide intensities(const LaneCells& cells, const float* pixels, int n) {
-  const Wide raw = n >= 16 ? load_wide(pixels) : load_wide_first(pixels, n);
+/// Sixteen pixels, of which `n` may be read.
+GLINT_INLINE Wide load_pixels(const float* pixels, int n) {
+  return n >= 16 ? load_wide(pixels) : load_wide_first(pixels, n);
+}
+/// z of sixteen pixels; zero for dark ones and for those not finite.
+GLINT_INLINE Wide intensities(const LaneCells& cells, const Wide& raw) {
   Wide z;
   for (int k = 0; k < kParts; ++k) {
     const Part v = raw.part[k];
@@ -75,38 +78,62 @@ GLINT_INLINE void fetch_ahead(const LaneCells& cells, const LaneTarget& t) {
   }
 }
 
-GLINT_INLINE PartialSums isolated_sums(const LaneCells& cells, const LaneTarget& t) {
-  const int width = t.box.x1 - t.box.x0, height = t.box.y1 - t.box.y0;
-  const Cells columns = few_cells(t.left, t.sigma_x, width);
-  const Cells rows = few_cells(t.top, t.sigma_y, height);
+/// The integrals of a target's columns and rows.
+struct TargetAxes {
+  Cells columns, rows;
+};
+
+/// `Inside` if all sixteen columns may be read.
+template <bool Inside>
+GLINT_INLINE ColumnSums column_sums(const LaneCells& cells, const LaneTarget& t,
+                                    const TargetAxes& axes) {
   alignas(64) float row_p[16], row_first[16], row_second[16];
-  store_wide(row_p, rows.p);
-  store_wide(row_first, rows.first);
-  store_wide(row_second, rows.second);
-  const Wide weighted = columns.p * wide(t.proportion), background = wide(cells.background);
+  store_wide(row_p, axes.rows.p);
+  store_wide(row_first, axes.rows.first);
+  store_wide(row_second, axes.rows.second);
+  const Wide weighted = axes.columns.p * wide(t.proportion), background = wide(cells.background);
   ColumnSums sums;
   const float* pixels = cells.data + t.box.y0 * cells.pitch + t.box.x0;
-  for (int y = 0; y < height; ++y, pixels += cells.pitch) {
+  for (int y = 0; y < t.box.y1 - t.box.y0; ++y, pixels += cells.pitch) {
     const Wide mixture = multiply_add(weighted, wide(row_p[y]), background);  // P-HPMHT (7)
-    const Wide z = intensities(cells, pixels, cells.width - t.box.x0);
-    sums.add(z / mixture, row_p[y], row_first[y], row_second[y]);
+    const Wide raw = load_pixels(pixels, Inside ? 16 : cells.width - t.box.x0);
+    sums.add(intensities(cells, raw) / mixture, row_p[y], row_first[y], row_second[y]);
   }
+  return sums;
+}
+
+GLINT_INLINE PartialSums isolated_sums(const LaneCells& cells, const LaneTarget& t,
+                                       const TargetAxes& axes) {
+  const ColumnSums sums = t.box.x0 + 16 <= cells.width ? column_sums<true>(cells, t, axes)
+                                                       : column_sums<false>(cells, t, axes);
   double out[5] = {};
-  dots(sums, columns, out);
+  dots(sums, axes.columns, out);
   return {.count = out[0],
           .x = out[1],
           .y = out[2],
           .xx = out[3],
           .yy = out[4],
-          .probability = static_cast<double>(total(columns.p)) * total(rows.p)};
+          .probability = static_cast<double>(total(axes.columns.p)) * total(axes.rows.p)};
 }
 
+/// A few targets at a time: first the axes of all, long chains of arithmetic that run side by side
+/// while the pixels come into the cache, then the pixels.
 void isolated(const LaneCells& cells, const LaneTarget* targets, const std::uint32_t* which,
               std::size_t n, PartialSums* sums) {
-  constexpr std::size_t kAhead = 2;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i + kAhead < n) fetch_ahead(cells, targets[which[i + kAhead]]);
-    sums[targets[which[i]].index] = isolated_sums(cells, targets[which[i]]);
+  constexpr std::size_t kTogether = 8;
+  TargetAxes axes[kTogether];
+  for (std::size_t first = 0; first < n; first += kTogether) {
+    const std::size_t end = n - first < kTogether ? n : first + kTogether;
+    for (std::size_t i = first; i < end; ++i) fetch_ahead(cells, targets[which[i]]);
+    for (std::size_t i = first; i < end; ++i) {
+      const LaneTarget& t = targets[which[i]];
+      axes[i - first] = {few_cells(t.left, t.sigma_x, t.box.x1 - t.box.x0),
+                         few_cells(t.top, t.sigma_y, t.box.y1 - t.box.y0)};
+    }
+    for (std::size_t i = first; i < end; ++i) {
+      const LaneTarget& t = targets[which[i]];
+      sums[t.index] = isolated_sums(cells, t, axes[i - first]);
+    }
   }
 }
 
@@ -201,7 +228,7 @@ GLINT_INLINE void add_block(const Block& block, const LaneCells& cells, const Ce
   ColumnSums seen, missing;
   const float* pixels = cells.data + block.box.y0 * cells.pitch + block.box.x0;
   for (int r = 0, j = first_row; r < block.box.y1 - block.box.y0; ++r, ++j) {
-    Wide z = intensities(cells, pixels, cells.width - block.box.x0);
+    Wide z = intensities(cells, load_pixels(pixels, cells.width - block.box.x0));
     pixels += cells.pitch;
     if (!Plain) {
       const Wide hidden = hide(cells, block.hidden[r], z);
@@ -262,21 +289,54 @@ void crowded(const LaneCells& cells, const LaneTarget& t, const TargetProfile& p
   log_ratio_sum += all.log_ratio;
 }
 
-void sum(const LaneCells& cells, const float* pixels, int n, double& norm, double& shown) {
-  Wide sums = zero(), lit = zero();
-  for (int x = 0; x < n; x += 16) {
-    const int left = n - x;
-    const Wide raw = left >= 16 ? load_wide(pixels + x) : load_wide_first(pixels + x, left);
-    for (int k = 0; k < kParts; ++k) {
-      const Part v = raw.part[k];
-      const auto is_lit =
-          (v > cells.threshold) & (v <= kLargest) & (count_from<kLanes>(k * kLanes) < left);
-      sums.part[k] += where(is_lit, v - cells.offset);
-      lit.part[k] += where(is_lit, broadcast<Part>(1.0f));
+/// Adds z, and with `CountLit` the displayed cells, of sixteen pixels, of which `n` count.
+template <bool CountLit>
+GLINT_INLINE void add_cells(const LaneCells& cells, const Wide& raw, int n, Wide& sums, Wide& lit) {
+  for (int k = 0; k < kParts; ++k) {
+    const Part v = raw.part[k];
+    auto is_lit = (v > cells.threshold) & (v <= kLargest);
+    if (n < 16) is_lit &= count_from<kLanes>(k * kLanes) < n;
+    sums.part[k] += where(is_lit, v - cells.offset);
+    if (CountLit) lit.part[k] += where(is_lit, broadcast<Part>(1.0f));
+  }
+}
+
+/// Rows side by side, so that no sum waits for the one before it.
+template <bool CountLit, int Rows>
+GLINT_INLINE void sum_rows(const LaneCells& cells, const float* pixels, int n, double& norm,
+                           double& shown) {
+  Wide sums[Rows], lit[Rows];
+  for (int r = 0; r < Rows; ++r) sums[r] = lit[r] = zero();
+  int x = 0;
+  for (; x + 16 <= n; x += 16) {
+    for (int r = 0; r < Rows; ++r) {
+      add_cells<CountLit>(cells, load_wide(pixels + r * cells.pitch + x), 16, sums[r], lit[r]);
     }
   }
-  norm += total(sums);
-  shown += cells.truncate_dark ? total(lit) : static_cast<float>(n);
+  for (int r = 0; r < Rows && x < n; ++r) {
+    const Wide last = load_wide_first(pixels + r * cells.pitch + x, n - x);
+    add_cells<CountLit>(cells, last, n - x, sums[r], lit[r]);
+  }
+  for (int r = 1; r < Rows; ++r) sums[0] = sums[0] + sums[r], lit[0] = lit[0] + lit[r];
+  norm += total(sums[0]);
+  shown += CountLit ? total(lit[0]) : static_cast<float>(n * Rows);
+}
+
+template <bool CountLit>
+GLINT_INLINE void sum_all(const LaneCells& cells, const float* pixels, int n, int rows,
+                          double& norm, double& shown) {
+  constexpr int kTogether = 4;
+  int y = 0;
+  for (; y + kTogether <= rows; y += kTogether) {
+    sum_rows<CountLit, kTogether>(cells, pixels + y * cells.pitch, n, norm, shown);
+  }
+  for (; y < rows; ++y) sum_rows<CountLit, 1>(cells, pixels + y * cells.pitch, n, norm, shown);
+}
+
+void sum(const LaneCells& cells, const float* pixels, int n, int rows, double& norm,
+         double& shown) {
+  if (cells.truncate_dark) return sum_all<true>(cells, pixels, n, rows, norm, shown);
+  sum_all<false>(cells, pixels, n, rows, norm, shown);
 }
 
 }  // namespace

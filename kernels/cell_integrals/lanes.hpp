@@ -68,8 +68,9 @@ struct CellIntegralsLanes {
   void (*crowded)(const LaneCells& cells, const LaneTarget& target, const TargetProfile& profile,
                   const LaneNeighbour* neighbours, std::size_t n, const LaneTarget* next,
                   cell_integrals::PartialSums& sums, double& log_ratio_sum);
-  /// Adds z over a stretch of pixels, and those with data.
-  void (*sum)(const LaneCells& cells, const float* pixels, int n, double& norm, double& shown);
+  /// Adds z over a stretch of `n` pixels in each of `rows` rows, and those with data.
+  void (*sum)(const LaneCells& cells, const float* pixels, int n, int rows, double& norm,
+              double& shown);
 };
 GLINT_DECLARE_LANES(CellIntegralsLanes, cell_integrals_lanes)
 

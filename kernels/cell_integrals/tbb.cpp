@@ -132,7 +132,7 @@ void sum_row(const CellIntegralsLanes& lanes, const LaneCells& cells, int y,
   const float* const row = cells.data + y * cells.pitch;
   int x = 0;
   const auto sum_to = [&](int end) {
-    if (end > x) lanes.sum(cells, row + x, end - x, total.norm, total.shown);
+    if (end > x) lanes.sum(cells, row + x, end - x, 1, total.norm, total.shown);
   };
   for (const auto& [begin, end] : hidden) {
     sum_to(std::min(begin, cells.width));
@@ -149,6 +149,11 @@ void SumCells::tbb(const Args& args, Workers& workers) {
   const Tiles rows{args.frame.empty() ? 0 : static_cast<std::size_t>(args.frame.height), kRowTile};
   std::vector<CellTotal> totals(rows.tiles());
   workers.for_tiles(rows.tiles(), [&](std::size_t t) {
+    if (cells.missing_count == 0) {
+      const auto begin = static_cast<int>(rows.begin(t)), end = static_cast<int>(rows.end(t));
+      return lanes.sum(cells, cells.data + begin * cells.pitch, cells.width, end - begin,
+                       totals[t].norm, totals[t].shown);
+    }
     std::vector<std::pair<int, int>> hidden;
     for (std::size_t y = rows.begin(t); y < rows.end(t); ++y) {
       sum_row(lanes, cells, static_cast<int>(y), hidden, totals[t]);

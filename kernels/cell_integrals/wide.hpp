@@ -35,6 +35,11 @@ GLINT_INLINE Wide load_wide_first(const float* p, int n) {
 GLINT_INLINE void store_wide(float* p, const Wide& w) {
   for (int k = 0; k < kParts; ++k) store(p + k * kLanes, w.part[k]);
 }
+GLINT_INLINE Wide operator+(const Wide& a, const Wide& b) {
+  Wide w;
+  for (int k = 0; k < kParts; ++k) w.part[k] = a.part[k] + b.part[k];
+  return w;
+}
 GLINT_INLINE Wide operator*(const Wide& a, const Wide& b) {
   Wide w;
   for (int k = 0; k < kParts; ++k) w.part[k] = a.part[k] * b.part[k];
@@ -59,18 +64,7 @@ GLINT_INLINE Wide one_on(const Wide& a, const Wide& b = zero()) {
   return w;
 }
 
-template <class V>
-GLINT_INLINE V lesser(V a, V b) {
-  return where(a < b, a, b);
-}
-template <class V>
-GLINT_INLINE V greater(V a, V b) {
-  return where(a < b, b, a);
-}
-template <class V>
-GLINT_INLINE V bounded(V x, V low, V high) {
-  return lesser(greater(x, low), high);
-}
+GLINT_INLINE Part bounded(Part x, Part low, Part high) { return lesser(greater(x, low), high); }
 
 /// Sum in one order on every instruction set: halves on halves.
 GLINT_INLINE float total(const Wide& w) {

@@ -113,6 +113,29 @@ GLINT_INLINE V where(M lanes, V a, V b) {
   return (V)(((M)a & lanes) | ((M)b & ~lanes));
 }
 
+/// a < b ? a : b, lane by lane.
+template <class V>
+GLINT_INLINE V lesser(V a, V b) {
+#ifdef __AVX512F__
+  if constexpr (sizeof(V) == 64) return (V)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);
+#endif
+#ifdef __AVX2__
+  if constexpr (sizeof(V) == 32) return (V)_mm256_min_ps((__m256)a, (__m256)b);
+#endif
+  return where(a < b, a, b);
+}
+/// a < b ? b : a, lane by lane.
+template <class V>
+GLINT_INLINE V greater(V a, V b) {
+#ifdef __AVX512F__
+  if constexpr (sizeof(V) == 64) return (V)_mm512_maskz_max_ps(0xffff, (__m512)b, (__m512)a);
+#endif
+#ifdef __AVX2__
+  if constexpr (sizeof(V) == 32) return (V)_mm256_max_ps((__m256)b, (__m256)a);
+#endif
+  return where(a < b, b, a);
+}
+
 /// Lane by lane; out of line where each lane costs a call anyway.
 #if defined(__FMA__) || defined(__aarch64__)
 template <class V>
