@@ -13,9 +13,9 @@
 namespace glint::cli {
 
 std::span<void (*const)(CLI::App&)> all_commands() {
-  static constexpr void (*kCommands[])(CLI::App&) = {add_track,  add_simulate,   add_evaluate,
-                                                     add_points, add_experiment, add_bench,
-                                                     add_parity, add_info,       add_config};
+  static constexpr void (*kCommands[])(CLI::App&) = {
+      add_track,     add_simulate, add_evaluate, add_points, add_experiment,
+      add_calibrate, add_bench,    add_parity,   add_info,   add_config};
   return kCommands;
 }
 

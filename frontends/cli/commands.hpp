@@ -17,6 +17,7 @@ void add_simulate(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_points(CLI::App& app);
 void add_experiment(CLI::App& app);
+void add_calibrate(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_parity(CLI::App& app);
 void add_info(CLI::App& app);

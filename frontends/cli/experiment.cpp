@@ -2,7 +2,6 @@
 #include "glint/engine/experiments/experiment.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/curves.hpp"
+#include "glint/frontends/cli/run_progress.hpp"
 #include "glint/frontends/experiments/recorded.hpp"
 
 namespace glint::cli {
@@ -96,17 +96,13 @@ std::vector<ExperimentEntry> experiments() {
   return list;
 }
 
-void show_progress(int done, int total) {
-  fmt::print(stderr, "\r{} of {} runs{}", done, total, done == total ? "\n" : "");
-}
-
 void run(const Request& request) {
   const std::vector<ExperimentEntry> known = experiments();
   const ExperimentEntry& entry = find_experiment(request.name, known);
   const std::filesystem::path folder =
       request.out.empty() ? std::filesystem::path() : output_folder(request.out);
   ExperimentOptions options = request.options;
-  if (isatty(STDERR_FILENO) != 0) options.progress = show_progress;
+  options.progress = run_progress();
   Workers workers(request.threads);
   const ExperimentResult result = run_experiment(entry, options, workers);
   if (request.json) {
