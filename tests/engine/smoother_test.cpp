@@ -55,29 +55,33 @@ struct Joint {
   Eigen::MatrixXd covariance;
 };
 
-template <class Model>
-Joint joint(const Model& model) {
-  constexpr Eigen::Index kSize = 2 * Model::kParts;
-  const auto count = static_cast<Eigen::Index>(kLooks.size() + 1);
-  Joint all{Eigen::VectorXd::Zero(kSize * count),
-            Eigen::MatrixXd::Zero(kSize * count, kSize * count)};
-  all.mean.head(kSize) = prior<Model>().mean;
-  all.covariance.topLeftCorner(kSize, kSize) = prior<Model>().covariance;
-  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(2 * count, kSize * count);
+/// Motion from look to look, in matrices of any size: code for each model apart compiles for
+/// minutes.
+struct Motion {
+  Eigen::MatrixXd transition, noise;
+};
+
+Joint joint(const Joint& prior, const std::vector<Motion>& motions) {
+  const Eigen::Index size = prior.mean.size();
+  const auto count = static_cast<Eigen::Index>(motions.size() + 1);
+  Joint all{Eigen::VectorXd::Zero(size * count), Eigen::MatrixXd::Zero(size * count, size * count)};
+  all.mean.head(size) = prior.mean;
+  all.covariance.topLeftCorner(size, size) = prior.covariance;
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(2 * count, size * count);
   Eigen::VectorXd z = Eigen::VectorXd::Zero(2 * count);
   Eigen::Index rows = 0;
   for (Eigen::Index t = 1; t < count; ++t) {
+    const Motion& motion = motions[static_cast<std::size_t>(t - 1)];
     const Look& look = kLooks[static_cast<std::size_t>(t - 1)];
-    const LinearMotion<kSize> motion = linear_motion<2>(model, look.step);
-    const Eigen::Index at = kSize * t, before = at - kSize;
-    all.mean.segment(at, kSize) = motion.transition * all.mean.segment(before, kSize);
-    all.covariance.block(at, 0, kSize, at) =
-        motion.transition * all.covariance.block(before, 0, kSize, at);
-    all.covariance.block(0, at, at, kSize) = all.covariance.block(at, 0, kSize, at).transpose();
-    all.covariance.block(at, at, kSize, kSize) =
-        motion.transition * all.covariance.block(before, at, kSize, kSize) + motion.noise;
+    const Eigen::Index at = size * t, before = at - size;
+    all.mean.segment(at, size) = motion.transition * all.mean.segment(before, size);
+    all.covariance.block(at, 0, size, at) =
+        motion.transition * all.covariance.block(before, 0, size, at);
+    all.covariance.block(0, at, at, size) = all.covariance.block(at, 0, size, at).transpose();
+    all.covariance.block(at, at, size, size) =
+        motion.transition * all.covariance.block(before, at, size, size) + motion.noise;
     if (!look.position) continue;
-    h(rows, at) = h(rows + 1, at + Model::kParts) = 1;
+    h(rows, at) = h(rows + 1, at + size / 2) = 1;
     z.segment(rows, 2) = *look.position;
     rows += 2;
   }
@@ -86,6 +90,16 @@ Joint joint(const Model& model) {
       h * all.covariance * h.transpose() + kVariance * Eigen::MatrixXd::Identity(rows, rows);
   const Eigen::MatrixXd gain = all.covariance * h.transpose() * s.inverse();
   return {all.mean + gain * (z - h * all.mean), all.covariance - gain * h * all.covariance};
+}
+
+template <class Model>
+Joint joint(const Model& model) {
+  std::vector<Motion> motions;
+  for (const Look& look : kLooks) {
+    const auto motion = linear_motion<2>(model, look.step);
+    motions.push_back({motion.transition, motion.noise});
+  }
+  return joint({prior<Model>().mean, prior<Model>().covariance}, motions);
 }
 
 template <class Model>
