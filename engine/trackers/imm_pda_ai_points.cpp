@@ -21,7 +21,9 @@ void ImmPdaAi::measure(const Scan& scan) {
   if (config_.points == "units") return take_units(scan.raw.view());
   amplitude_threshold_ = std::numeric_limits<double>::infinity();
   for (const Point& point : scan.points) {
-    const double amplitude = static_cast<double>(point.amplitude);
+    // Points whose amplitude is unknown are all alike, and bright enough to start a track.
+    const double amplitude = std::isnan(point.amplitude) ? config_.start_amplitude
+                                                         : static_cast<double>(point.amplitude);
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(amplitude)) continue;
     measurements_.push_back({{point.x, point.y}, amplitude});
     amplitude_threshold_ = std::min(amplitude_threshold_, amplitude);

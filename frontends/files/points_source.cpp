@@ -83,7 +83,7 @@ class Scans {
   }
 
   std::optional<Point> point_of(const Row& row, std::int64_t line) const {
-    const double strength = std::isnan(row[amplitude]) ? 1 : row[amplitude];
+    const double strength = row[amplitude];
     const auto at = [strength](double px, double py) {
       return Point{static_cast<float>(px), static_cast<float>(py), static_cast<float>(strength)};
     };

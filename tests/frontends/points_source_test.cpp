@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/frontends/files/points_source.hpp"
+#include "glint/engine/trackers/registry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +55,8 @@ TEST(PointsSource, TimesAloneMakeScansToo) {
   EXPECT_EQ(frames[0].points->size(), 2U);
   EXPECT_TRUE(frames[1].points->empty());
   EXPECT_DOUBLE_EQ(frames[2].time, 2);
-  EXPECT_EQ(frames[2].points->at(0), (Point{5, 6, 1}));
+  EXPECT_EQ(frames[2].points->at(0).y, 6);
+  EXPECT_TRUE(std::isnan(frames[2].points->at(0).amplitude));
 }
 
 TEST(PointsSource, JsonLinesHoldTheSame) {
@@ -122,6 +124,32 @@ TEST(PointsSource, TrackersOfPointsNeedNoFrames) {
   EXPECT_NEAR(points.back().x, 32, 1);
   EXPECT_NEAR(points.back().y, 31, 1);
   EXPECT_NEAR(points.back().vx, 4, 0.5);
+}
+
+TEST(PointsSource, PointsWithoutAmplitudeStartTracksOfEveryTracker) {
+  const Folder folder;
+  std::string rows = "frame,x,y\n";
+  for (int t = 0; t < 20; ++t) {
+    rows +=
+        std::to_string(t) + ',' + std::to_string(10 + 2 * t) + ',' + std::to_string(20 + t) + '\n';
+    for (const int k : {31, 47, 71}) {
+      rows += std::to_string(t) + ',' + std::to_string(k * (t + 3) % 297) + ',' +
+              std::to_string(k * (t + 5) % 189) + '\n';
+    }
+  }
+  const std::string input = folder.write("points.csv", rows), tracks = folder / "tracks.csv";
+  for (const TrackerEntry& tracker : all_trackers()) {
+    if (tracker.feed == Feed::frames) continue;
+    const std::string name(tracker.name);
+    const auto result =
+        test::glint(folder, "track " + input + " --tracker " + name + " --out " + tracks);
+    ASSERT_EQ(result.code, 0) << name << result.err;
+    const std::vector<TrackPoint> points = read_tracks(tracks);
+    EXPECT_TRUE(std::ranges::any_of(points, [](const TrackPoint& p) {
+      return p.frame == 19 && p.status == TrackStatus::confirmed && std::abs(p.x - 48) < 2 &&
+             std::abs(p.y - 39) < 2;
+    })) << name;
+  }
 }
 
 TEST(PointsSource, WhatNeedsFramesIsRefused) {
