@@ -13,6 +13,8 @@ using Args = CellIntegrals::Args;
 
 /// Targets a tile, about 10 us.
 constexpr std::size_t kTargetTile = 64;
+/// Fewer tiles are done before a second thread has woken up for each of the four passes.
+constexpr std::size_t kLeastSharedTiles = 8;
 
 LaneCells lane_cells(FrameView frame, const CellRule& rule) {
   return {.data = frame.data,
@@ -176,18 +178,21 @@ void CellIntegrals::tbb(const Args& args, Workers& workers) {
   LaneCells cells = lane_cells(args.frame, args.rule);
   cells.background = static_cast<float>(args.background / cell_integrals::cells_of(args));
   cells.log_likelihood = args.log_likelihood;
-  workers.for_tiles(split.tiles(), [&](std::size_t t) {
+  const auto for_tiles = [&](const auto& f) {
+    if (split.tiles() >= kLeastSharedTiles) return workers.for_tiles(split.tiles(), f);
+    for (std::size_t t = 0; t < split.tiles(); ++t) f(t);
+  };
+  for_tiles([&](std::size_t t) {
     lanes.locate(args.targets.data(), split.begin(t), split.end(t), args.reach, args.frame.width,
                  args.frame.height, space.located.data());
   });
   space.grid.sort(space.located, args.frame.width, args.frame.height, space.targets);
-  workers.for_tiles(split.tiles(), [&](std::size_t t) {
+  for_tiles([&](std::size_t t) {
     survey(lanes, cells, space, space.tiles[t], split.begin(t), split.end(t));
   });
-  workers.for_tiles(split.tiles(),
-                    [&](std::size_t t) { sum_tile(lanes, cells, space, space.tiles[t]); });
+  for_tiles([&](std::size_t t) { sum_tile(lanes, cells, space, space.tiles[t]); });
   const cell_integrals::Totals totals = cell_integrals::totals_of(args, space.partial);
-  workers.for_tiles(split.tiles(), [&](std::size_t t) {
+  for_tiles([&](std::size_t t) {
     for (std::size_t k = split.begin(t); k < split.end(t); ++k) {
       args.sums[k] =
           cell_integrals::normalised(args.targets[k], space.partial[k], totals.missing_weight);
