@@ -18,8 +18,8 @@ std::vector<Point> scatter(std::uint32_t set, std::uint32_t count) {
   std::vector<Point> points;
   const RandomKey key = random_key(11, set, Purpose::scenario);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const auto words = random_words(key, i).w;
-    points.push_back({uniform(words[0]) * 50, uniform(words[1]) * 40, uniform(words[2]) * 9});
+    const Words4 words = random_words(key, i);
+    points.push_back({uniform(words.w[0]) * 50, uniform(words.w[1]) * 40, uniform(words.w[2]) * 9});
   }
   std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
     return std::floor(a.y + 0.5F) < std::floor(b.y + 0.5F);
