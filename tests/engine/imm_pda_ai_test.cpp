@@ -215,7 +215,7 @@ TEST(ImmPdaAi, TargetsThatCrossKeepTheirIdentities) {
   const Tracking run = crossing(0);
   ASSERT_EQ(run.last().size(), 2u);
   for (int i : {0, 1}) {
-    const TrackPoint& p = run.last()[static_cast<std::size_t>(i)];
+    const TrackPoint p = run.last()[static_cast<std::size_t>(i)];
     EXPECT_EQ(p.track_id, i + 1);
     EXPECT_NEAR(p.x, 80, 1);
     EXPECT_NEAR(p.y, i == 0 ? 65 : 35, 1);
