@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -77,6 +78,7 @@ class MultiscanJpda {
   std::span<const Child> children(std::size_t target) const { return children_[target]; }
 
  private:
+  static constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
   struct Bond {
     std::uint32_t a, b;
     int scans;  ///< left

@@ -9,15 +9,6 @@
 namespace glint {
 namespace {
 
-ExperimentRow row_of(std::string name, const Figure& figure, std::span<const double> values) {
-  const Summary summary = summarise(values);
-  ExperimentRow row;
-  row.name = std::move(name), row.metric = figure.metric;
-  row.ours = summary.mean, row.spread = summary.spread;
-  row.paper = figure.paper, row.band = figure.band;
-  return row;
-}
-
 std::vector<double> values_of(const Figure& figure, const Runs& runs) {
   std::vector<double> values;
   values.reserve(runs.size());
@@ -39,7 +30,8 @@ std::vector<Runs> run_conditions(std::span<const Condition> conditions,
   for (std::size_t which = 0; which < conditions.size(); ++which) {
     const Condition& condition = conditions[which];
     for (const Figure& figure : condition.figures) {
-      result.rows.push_back(row_of(condition.title(), figure, values_of(figure, all[which])));
+      result.rows.push_back(value_row(condition.title(), figure.metric,
+                                      values_of(figure, all[which]), figure.band, figure.paper));
     }
   }
   return all;
@@ -49,7 +41,7 @@ ExperimentRow gain_row(std::string name, const Figure& figure, const Runs& runs,
   std::vector<double> gains = values_of(figure, than);
   const std::vector<double> ours = values_of(figure, runs);
   for (std::size_t r = 0; r < gains.size(); ++r) gains[r] -= ours[r];
-  return row_of(std::move(name), figure, gains);
+  return value_row(std::move(name), figure.metric, gains, figure.band, figure.paper);
 }
 
 Curve mean_curve(std::string level, std::string condition, std::string metric, const Runs& runs,

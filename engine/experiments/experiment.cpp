@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "glint/engine/config.hpp"
 #include "glint/engine/experiments/hpmht.hpp"
@@ -82,6 +83,16 @@ Summary summarise(std::span<const double> values) {
     if (!std::isnan(v)) squares += (v - mean) * (v - mean);
   }
   return {mean, count > 1 ? std::sqrt(squares / (count - 1)) : 0};
+}
+
+ExperimentRow value_row(std::string name, std::string metric, const std::vector<double>& values,
+                        const std::optional<Band>& band, const std::optional<double>& paper) {
+  const Summary summary = summarise(values);
+  ExperimentRow row;
+  row.name = std::move(name), row.metric = std::move(metric);
+  row.ours = summary.mean, row.spread = summary.spread;
+  row.paper = paper, row.band = band;
+  return row;
 }
 
 }  // namespace glint

@@ -80,5 +80,9 @@ struct Summary {
   double mean = 0, spread = 0;
 };
 Summary summarise(std::span<const double> values);
+/// One value a run: its mean and spread.
+ExperimentRow value_row(std::string name, std::string metric, const std::vector<double>& values,
+                        const std::optional<Band>& band = {},
+                        const std::optional<double>& paper = {});
 
 }  // namespace glint

@@ -52,16 +52,6 @@ std::function<AircraftRun(std::uint64_t)> runner(int scenario, Config config) {
   return [=](std::uint64_t seed) { return run_aircraft(scenario, config, seed); };
 }
 
-ExperimentRow row_of(const Case& c, const char* metric, const std::vector<double>& values,
-                     double paper, const std::optional<Band>& band) {
-  const Summary summary = summarise(values);
-  ExperimentRow row;
-  row.name = c.name, row.metric = metric;
-  row.ours = summary.mean, row.spread = summary.spread;
-  row.paper = paper, row.band = band;
-  return row;
-}
-
 std::vector<double> column(const std::vector<AircraftRun>& runs, double AircraftRun::*value) {
   std::vector<double> values;
   values.reserve(runs.size());
@@ -77,10 +67,11 @@ std::vector<std::vector<AircraftRun>> run_all(const std::vector<Case>& cases,
       [&](std::size_t which, std::size_t run) { return cases[which].run(options.seed + run); });
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& c = cases[i];
-    result.rows.push_back(row_of(c, "hit on target [%]", column(runs[i], &AircraftRun::hit),
-                                 c.paper.hit, c.hit_band));
-    result.rows.push_back(row_of(c, "deviation [px]", column(runs[i], &AircraftRun::deviation),
-                                 c.paper.deviation, c.deviation_band));
+    result.rows.push_back(value_row(c.name, "hit on target [%]", column(runs[i], &AircraftRun::hit),
+                                    c.hit_band, c.paper.hit));
+    result.rows.push_back(value_row(c.name, "deviation [px]",
+                                    column(runs[i], &AircraftRun::deviation), c.deviation_band,
+                                    c.paper.deviation));
   }
   return runs;
 }
@@ -111,9 +102,9 @@ ExperimentResult run_hpmht_table_2(const ExperimentOptions& options, Workers& wo
     std::vector<double> gains = column(runs[i + 1], &AircraftRun::deviation);
     const std::vector<double> ours = column(runs[i], &AircraftRun::deviation);
     for (std::size_t r = 0; r < gains.size(); ++r) gains[r] -= ours[r];
-    ExperimentRow row = row_of(cases[i], "deviation below imm-pda-ai's [px]", gains,
-                               kImmPda[i / 2].deviation - kHPmht[i / 2].deviation, Band{0, {}});
-    result.rows.push_back(std::move(row));
+    result.rows.push_back(value_row(cases[i].name, "deviation below imm-pda-ai's [px]", gains,
+                                    Band{0, {}},
+                                    kImmPda[i / 2].deviation - kHPmht[i / 2].deviation));
   }
   return result;
 }

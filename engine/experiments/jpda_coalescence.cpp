@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "glint/engine/experiments/boat_tracker.hpp"
 #include "glint/engine/experiments/jpda.hpp"
 #include "glint/engine/experiments/monte_carlo.hpp"
-#include "glint/engine/experiments/value_row.hpp"
 #include "glint/engine/metrics/metrics.hpp"
-#include "glint/engine/trackers/imm_jpda.hpp"
 #include "glint/kernels/core/random.hpp"
 
 namespace glint {
@@ -22,26 +21,11 @@ constexpr double kSpeed = 3, kApart = 20, kSigma = 5;                 // [m/s], 
 constexpr double kDetection = 0.9;
 constexpr double kCutoff = 20, kOrder = 2;  // of OSPA [m]
 
-struct Reading {
-  const char* name;
-  int window;
-  const char* reading;
-};
-constexpr std::array kReadings{Reading{"single scan", 1, "best"}, Reading{"A", 2, "restart"},
-                               Reading{"C", 2, "sliding"}, Reading{"C*", 2, "best"},
-                               Reading{"C*, three scans", 3, "best"}};
+constexpr std::array kReadings{JpdaReading{"single scan", 1, "best"},
+                               JpdaReading{"A", 2, "restart"}, JpdaReading{"C", 2, "sliding"},
+                               JpdaReading{"C*", 2, "best"},
+                               JpdaReading{"C*, three scans", 3, "best"}};
 constexpr std::size_t kBest = 3;
-
-ImmJpdaConfig boats(const Reading& reading) {
-  ImmJpdaConfig config;
-  config.clock = "seconds", config.noise = 0.05, config.noise_agile = 0.5, config.stay = 0.95;
-  config.measurement_variance = kSigma * kSigma, config.detection = kDetection;
-  config.clutter_density = 5e-6, config.position_sd = 8, config.velocity_sd = 1;
-  config.initiate = false, config.merge_scans = 0;
-  config.life.halt_misses = 0, config.life.halt_existence = 0;
-  config.window = reading.window, config.reading = reading.reading;
-  return config;
-}
 
 struct Run {
   double merged = 0, after = 0;  ///< mean OSPA while there is one echo, and later [m]
@@ -63,8 +47,10 @@ std::vector<Point> echoes(double time, int scan, std::uint64_t seed) {
   return points;
 }
 
-Run follow(const Reading& reading, std::uint64_t seed) {
-  ImmJpda tracker(boats(reading), Device::serial(), seed);
+Run follow(const JpdaReading& reading, std::uint64_t seed) {
+  ImmJpdaConfig config = boat_tracker(reading);
+  keep_to_known(config);
+  ImmJpda tracker(config, Device::serial(), seed);
   for (const double y : {0.0, kApart}) tracker.start(0, y, kSpeed, 0);
   TrackLog log;
   Run run;

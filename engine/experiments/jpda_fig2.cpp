@@ -10,7 +10,6 @@
 
 #include "glint/engine/experiments/jpda.hpp"
 #include "glint/engine/experiments/monte_carlo.hpp"
-#include "glint/engine/experiments/value_row.hpp"
 #include "glint/engine/filters/imm_window.hpp"
 #include "glint/kernels/core/random.hpp"
 

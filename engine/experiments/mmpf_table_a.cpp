@@ -75,14 +75,15 @@ void add_rows(const Line& line, std::size_t clip, const std::vector<FollowedRun>
               ExperimentResult& result) {
   const std::string name = std::string(line.name) + ", " + kClips[clip];
   for (std::size_t t = 0; t < kTargets; ++t) {
-    result.rows.push_back(point_row(name, "target " + std::to_string(t + 1) + " [px]",
-                                    prediction_errors(runs, t), line.paper[clip * kTargets + t]));
+    result.rows.push_back(value_row(name, "target " + std::to_string(t + 1) + " [px]",
+                                    prediction_errors(runs, t), {},
+                                    line.paper[clip * kTargets + t]));
   }
   const double attained = line.attained[clip];
-  result.rows.push_back(point_row(name, "prediction [px]",
-                                  both(prediction_errors(runs, 0), prediction_errors(runs, 1)), {},
+  result.rows.push_back(value_row(name, "prediction [px]",
+                                  both(prediction_errors(runs, 0), prediction_errors(runs, 1)),
                                   Band{{}, attained + line.tolerance}));
-  result.rows.push_back(point_row(name, "estimate [px]",
+  result.rows.push_back(value_row(name, "estimate [px]",
                                   both(estimation_errors(runs, 0), estimation_errors(runs, 1))));
 }
 
@@ -103,8 +104,8 @@ ExperimentResult run_mmpf_table_a(const ExperimentOptions& options, Workers& wor
       const std::vector<double> shares = lost_shares(of_clip);
       lost.insert(lost.end(), shares.begin(), shares.end());
     }
-    result.rows.push_back(point_row(kLines[line].name, "targets lost [%]", lost, {},
-                                    Band{{}, kLines[line].most_lost}));
+    result.rows.push_back(
+        value_row(kLines[line].name, "targets lost [%]", lost, Band{{}, kLines[line].most_lost}));
   }
   return result;
 }

@@ -54,8 +54,8 @@ ExperimentResult run_pmht_40_targets(const ExperimentOptions& options, Workers& 
     std::vector<double> lost = lost_shares(runs[i]);
     for (double& share : lost) share *= 40.0 / 100;
     const Band band{{}, kCases[i].most_lost};
-    result.rows.push_back(point_row(kCases[i].name, "targets lost of 40", lost, {}, band));
-    result.rows.push_back(point_row(kCases[i].name, "prediction [px]", mean_errors(runs[i])));
+    result.rows.push_back(value_row(kCases[i].name, "targets lost of 40", lost, band));
+    result.rows.push_back(value_row(kCases[i].name, "prediction [px]", mean_errors(runs[i])));
   }
   return result;
 }

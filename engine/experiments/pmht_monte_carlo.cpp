@@ -35,10 +35,10 @@ void add_errors(const std::vector<FollowedRun>& runs, ExperimentResult& result) 
     // 2.5 standard errors of a difference of two means of 50 runs.
     const Band band{kPaths[t].attained - 0.15, kPaths[t].attained + 0.15};
     result.rows.push_back(
-        point_row(kPaths[t].name, "prediction [px]", prediction_errors(runs, t), {}, band));
-    result.rows.push_back(point_row(kPaths[t].name, "estimate [px]", estimation_errors(runs, t)));
+        value_row(kPaths[t].name, "prediction [px]", prediction_errors(runs, t), band));
+    result.rows.push_back(value_row(kPaths[t].name, "estimate [px]", estimation_errors(runs, t)));
   }
-  result.rows.push_back(point_row("all", "targets lost [%]", lost_shares(runs), {}, Band{{}, 1}));
+  result.rows.push_back(value_row("all", "targets lost [%]", lost_shares(runs), Band{{}, 1}));
 }
 
 /// P-PMHT (35): errors over the standard deviations that the filter claims are N(0, 1).
@@ -53,8 +53,8 @@ void add_normalised(const std::vector<FollowedRun>& runs, ExperimentResult& resu
     mean.push_back(summary.mean), deviation.push_back(summary.spread);
   }
   const char* name = "R = 2.25";
-  result.rows.push_back(point_row(name, "normalised error, mean", mean, {}, Band{-0.15, 0.15}));
-  result.rows.push_back(point_row(name, "normalised error, sd", deviation, {}, Band{0.85, 1.05}));
+  result.rows.push_back(value_row(name, "normalised error, mean", mean, Band{-0.15, 0.15}));
+  result.rows.push_back(value_row(name, "normalised error, sd", deviation, Band{0.85, 1.05}));
 }
 
 }  // namespace

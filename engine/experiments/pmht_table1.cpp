@@ -144,9 +144,9 @@ void add_rows(const Line& line, const std::vector<FollowedRun>& runs, Experiment
     std::optional<Band> band;
     if (const auto& at = line.attained[t]) band = Band{*at - line.tolerance, *at + line.tolerance};
     result.rows.push_back(
-        point_row(line.name, target, prediction_errors(runs, t), line.paper[t], band));
+        value_row(line.name, target, prediction_errors(runs, t), band, line.paper[t]));
   }
-  result.rows.push_back(point_row(line.name, "targets lost [%]", lost_shares(runs), {}, line.lost));
+  result.rows.push_back(value_row(line.name, "targets lost [%]", lost_shares(runs), line.lost));
 }
 
 }  // namespace

@@ -90,9 +90,7 @@ FollowedRun follow_points(const Scene& scene, const PointSensor& sensor,
 
 void start_on_targets(PmhtConfig& config, double clutter_density) {
   constexpr double kNone = 1e-9;  // [1/px^2]
-  config.initiate = false;
-  config.merge_scans = 0;
-  config.life.halt_misses = 0, config.life.halt_existence = 0;
+  keep_to_known(config);
   config.clutter_density = clutter_density > 0 ? clutter_density : kNone;
 }
 
@@ -101,6 +99,7 @@ namespace {
 std::vector<double> errors(const std::vector<FollowedRun>& runs, std::size_t target,
                            double FollowedTarget::*error) {
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const FollowedRun& run : runs) {
     values.push_back(run[target].lost ? kUndefined : run[target].*error);
   }
@@ -124,16 +123,6 @@ std::vector<double> lost_shares(const std::vector<FollowedRun>& runs) {
     shares.push_back(100 * lost / static_cast<double>(run.size()));
   }
   return shares;
-}
-
-ExperimentRow point_row(std::string name, std::string metric, const std::vector<double>& values,
-                        const std::optional<double>& paper, const std::optional<Band>& band) {
-  const Summary summary = summarise(values);
-  ExperimentRow row;
-  row.name = std::move(name), row.metric = std::move(metric);
-  row.ours = summary.mean, row.spread = summary.spread;
-  row.paper = paper, row.band = band;
-  return row;
 }
 
 }  // namespace glint

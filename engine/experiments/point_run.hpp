@@ -38,9 +38,4 @@ std::vector<double> estimation_errors(const std::vector<FollowedRun>& runs, std:
 /// Share of the targets that are lost, by run [%].
 std::vector<double> lost_shares(const std::vector<FollowedRun>& runs);
 
-/// A figure over runs.
-ExperimentRow point_row(std::string name, std::string metric, const std::vector<double>& values,
-                        const std::optional<double>& paper = {},
-                        const std::optional<Band>& band = {});
-
 }  // namespace glint

@@ -56,6 +56,14 @@ std::vector<std::string> normalise_rows(Switching& switching) {
   return notes;
 }
 
+Switching staying(std::size_t models, double stay) {
+  const auto count = static_cast<Eigen::Index>(models);
+  const double go = count > 1 ? (1 - stay) / static_cast<double>(count - 1) : 0;
+  Switching switching = Switching::Constant(count, count, go);
+  switching.diagonal().setConstant(count > 1 ? stay : 1);
+  return switching;
+}
+
 template <int Axes>
 ImmOf<Axes>::ImmOf(std::vector<ModeOf<Axes>> modes, const Switching& switching,
                    const ModeProbability& probability)

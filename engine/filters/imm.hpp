@@ -33,6 +33,9 @@ using Switching = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
 /// Throws std::invalid_argument if a number is negative or a row is zero.
 std::vector<std::string> normalise_rows(Switching& switching);
 
+/// Of `models` models: each stays with probability `stay`, and goes to any other alike.
+Switching staying(std::size_t models, double stay);
+
 /// A bank of Kalman filters, one a motion model, between which a target switches as a Markov chain
 /// (Blom and Bar-Shalom 1988). One cycle is mix(), predict(), an update of every mode's belief by
 /// the caller, and weigh(). Models may be of unlike dimension. Copies of banks of as many models,

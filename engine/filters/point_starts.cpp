@@ -2,9 +2,23 @@
 #include "glint/engine/filters/point_starts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace glint {
+
+std::span<const PointStart> PointStarts::next(const ScanPoints& points, double least_amplitude,
+                                              double reach) {
+  std::swap(free_, free_before_);
+  free_.clear();
+  for (std::size_t j = 0; j < points.positions.size(); ++j) {
+    const double amplitude = points.amplitudes[j];
+    if (!points.free(j) || amplitude < least_amplitude) continue;
+    free_.push_back({points.positions[j], std::isfinite(amplitude) ? amplitude : 0});
+  }
+  return find(free_before_, free_, reach);
+}
 
 std::span<const PointStart> PointStarts::find(std::span<const FreePoint> before,
                                               std::span<const FreePoint> now, double reach) {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "glint/engine/filters/scan_points.hpp"
+
 namespace glint {
 
 /// A point that no track has.
@@ -21,6 +23,9 @@ struct PointStart {
 /// Starts tracks from pairs of points.
 class PointStarts {
  public:
+  /// Of the points that were free at the last call and those that now are, if bright enough or of
+  /// unknown amplitude.
+  std::span<const PointStart> next(const ScanPoints& points, double least_amplitude, double reach);
   /// Pairs at most `reach` [px] apart, each point in one pair: the brightest first, of equals the
   /// nearest, then in the order of the points. Valid until the next call.
   std::span<const PointStart> find(std::span<const FreePoint> before,
@@ -31,6 +36,7 @@ class PointStarts {
     double amplitude, distance;
     std::size_t before, now;
   };
+  std::vector<FreePoint> free_, free_before_;
   std::vector<Candidate> candidates_;
   std::vector<bool> taken_before_, taken_now_;
   std::vector<PointStart> starts_;

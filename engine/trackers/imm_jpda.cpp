@@ -7,10 +7,6 @@
 namespace glint {
 namespace {
 
-constexpr double kClaimed = 0.5;  // of a point: more is some track's
-
-Eigen::Vector2d position_of(const Gaussian<4>& state) { return {state.mean(0), state.mean(2)}; }
-
 /// Tracks that are not confirmed are many and short: for them each scan stands alone.
 ImmWindowSettings settings_of(const ImmJpdaConfig& config, int scans) {
   ImmWindowSettings settings;
@@ -27,23 +23,16 @@ PointNoise noise_of(const ImmJpdaConfig& config) {
           config.azimuth_sd};
 }
 
-double area_of(const Scan& scan) {
-  const FrameView frame = scan.raw ? scan.raw.view() : scan.whitened.view();
-  return static_cast<double>(frame.width) * frame.height;
-}
-
 }  // namespace
 
 ImmJpda::ImmJpda(const ImmJpdaConfig& config, const Device&, std::uint64_t /*seed*/)
     : config_(config),
       confirmed_{PointWindow(settings_of(config, config.window), noise_of(config)), {}},
       tentative_{PointWindow(settings_of(config, 1), noise_of(config)), {}} {
-  if (config.life.confirm_hits > config.life.confirm_window) {
-    throw ConfigError("confirm_hits must not exceed confirm_window: lower it or widen the window");
-  }
+  check(config);
 }
 
-void ImmJpda::Crew::add(Track track, const Imm& bank) {
+void ImmJpda::Crew::add(PointTrack track, const Imm& bank) {
   window.add(bank);
   tracks.push_back(std::move(track));
 }
@@ -60,9 +49,9 @@ void ImmJpda::step(const Scan& scan, TrackLog& log) {
   elapsed_ = config_.clock == "frames" ? at.step : scan.time - std::exchange(last_time_, scan.time);
   take_points(scan);
   offered_.clear();
-  for (std::uint32_t j = 0; j < points_.size(); ++j) offered_.push_back(j);
+  for (std::uint32_t j = 0; j < points_.positions.size(); ++j) offered_.push_back(j);
   follow(confirmed_, offered_, at);
-  std::erase_if(offered_, [&](std::uint32_t j) { return claimed_[j] >= kClaimed; });
+  std::erase_if(offered_, [&](std::uint32_t j) { return !points_.free(j); });
   follow(tentative_, offered_, at);
   end_duplicates();
   start_known(at);
@@ -74,27 +63,16 @@ void ImmJpda::step(const Scan& scan, TrackLog& log) {
 
 void ImmJpda::take_points(const Scan& scan) {
   place_ << scan.sensor_x, scan.sensor_y;
-  points_.clear(), amplitudes_.clear();
-  for (const Point& p : scan.points) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-    points_.emplace_back(p.x, p.y);
-    amplitudes_.push_back(static_cast<double>(p.amplitude));
-    box_.extend(points_.back());
-  }
-  claimed_.assign(points_.size(), 0);
-  const double frame = area_of(scan);
-  const double area = frame > 0 ? frame : box_.isEmpty() ? 1 : std::max(box_.volume(), 1.0);
-  const double false_points =
-      static_cast<double>(points_.size()) - static_cast<double>(confirmed_.tracks.size());
-  density_ =
-      config_.clutter_density > 0 ? config_.clutter_density : std::max(false_points, 1.0) / area;
+  points_.take(scan);
+  density_ = config_.clutter_density > 0 ? config_.clutter_density
+                                         : points_.false_density(confirmed_.tracks.size());
 }
 
 /// `points`: numbers of those that the crew may have.
 void ImmJpda::follow(Crew& crew, std::vector<std::uint32_t>& points, const StepTime& at) {
   if (crew.tracks.empty() && config_.reading != "restart") return;
   seen_.clear();
-  for (const std::uint32_t j : points) seen_.push_back(points_[j]);
+  for (const std::uint32_t j : points) seen_.push_back(points_.positions[j]);
   const MultiscanReport said = crew.window.step(seen_, place_, density_, elapsed_);
   count(said, &crew == &confirmed_ && config_.window > 1);
   learn(crew, points, at);
@@ -108,14 +86,14 @@ void ImmJpda::count(const MultiscanReport& said, bool windowed) {
 
 void ImmJpda::learn(Crew& crew, std::span<const std::uint32_t> points, const StepTime& at) {
   for (std::size_t i = 0; i < crew.tracks.size(); ++i) {
-    Track& track = crew.tracks[i];
+    PointTrack& track = crew.tracks[i];
     track.state = crew.window.bank(i).combined();
     const double missed = crew.window.missed(i);
     double amplitude = 0;
     for (std::size_t k = 0; k < crew.window.gated(i).size(); ++k) {
       const std::uint32_t j = points[crew.window.gated(i)[k]];
       const double share = crew.window.shares(i)[k];
-      claimed_[j] += share, amplitude += share * amplitudes_[j];
+      points_.claimed[j] += share, amplitude += share * points_.amplitudes[j];
     }
     const bool seen = missed < 0.5;
     if (seen) track.amplitude = amplitude / (1 - missed), track.last_seen = at.frame;
@@ -127,16 +105,14 @@ void ImmJpda::learn(Crew& crew, std::span<const std::uint32_t> points, const Ste
 
 /// Of tracks on one target the older goes on, the confirmed one before the tentative.
 void ImmJpda::end_duplicates() {
-  const auto near = [&](const Track& a, const Track& b) {
-    return !a.life.over() &&
-           (position_of(a.state) - position_of(b.state)).norm() < config_.separation;
+  const auto beside = [&](std::span<const PointTrack> older, const PointTrack& track) {
+    return std::ranges::any_of(older, [&](const PointTrack& other) {
+      return other.near(track.position(), config_.separation);
+    });
   };
-  const auto beside = [&](std::span<const Track> older, const Track& track) {
-    return std::ranges::any_of(older, [&](const Track& other) { return near(other, track); });
-  };
-  const std::span<Track> confirmed(confirmed_.tracks), tentative(tentative_.tracks);
+  const std::span<PointTrack> confirmed(confirmed_.tracks), tentative(tentative_.tracks);
   for (std::size_t b = 1; b < confirmed.size(); ++b) {
-    Track& younger = confirmed[b];
+    PointTrack& younger = confirmed[b];
     younger.merged = beside(confirmed.first(b), younger) ? younger.merged + 1 : 0;
     if (config_.merge_scans > 0 && younger.merged >= config_.merge_scans) younger.life.end();
   }
@@ -168,8 +144,8 @@ void ImmJpda::add(Crew& crew, const Gaussian<4>& state, double amplitude, const 
 }
 
 bool ImmJpda::crowded(const Eigen::Vector2d& position) const {
-  const auto near = [&](const Track& track) {
-    return !track.life.over() && (position_of(track.state) - position).norm() < config_.separation;
+  const auto near = [&](const PointTrack& track) {
+    return track.near(position, config_.separation);
   };
   return std::ranges::any_of(confirmed_.tracks, near) ||
          std::ranges::any_of(tentative_.tracks, near);
@@ -178,16 +154,11 @@ bool ImmJpda::crowded(const Eigen::Vector2d& position) const {
 /// From two points in a row, which tell the velocity as well as they tell the positions.
 void ImmJpda::start_tracks(const StepTime& at) {
   if (!config_.initiate) return;
-  std::swap(free_, free_before_);
-  free_.clear();
-  for (std::size_t j = 0; j < points_.size(); ++j) {
-    if (claimed_[j] >= kClaimed || amplitudes_[j] < config_.start_amplitude) continue;
-    free_.push_back({points_[j], std::isfinite(amplitudes_[j]) ? amplitudes_[j] : 0});
-  }
+  const auto pairs = starts_.next(points_, config_.start_amplitude, config_.speed_max * elapsed_);
   if (!(elapsed_ > 0)) return;
   Eigen::Matrix2d axis;  // of position and velocity, in units of a position's covariance
   axis << 1, 1 / elapsed_, 1 / elapsed_, 2 / (elapsed_ * elapsed_);
-  for (const PointStart& pair : starts_.find(free_before_, free_, config_.speed_max * elapsed_)) {
+  for (const PointStart& pair : pairs) {
     if (crowded(pair.now.position)) continue;
     const Eigen::Vector2d velocity = (pair.now.position - pair.before.position) / elapsed_;
     Gaussian<4> state;
@@ -218,25 +189,7 @@ void ImmJpda::promote() {
 void ImmJpda::report(Crew& crew, const StepTime& at, TrackLog& log) {
   const double rate = config_.clock == "frames" ? at.velocity_scale : 1;
   for (std::size_t i = 0; i < crew.tracks.size(); ++i) {
-    Track& track = crew.tracks[i];
-    if (track.life.over() && !track.life.confirmed()) {
-      log.drop(track.id, track.first_frame);
-      continue;
-    }
-    TrackPoint point;
-    point.frame = at.frame, point.time = at.time, point.track_id = track.id;
-    point.status = track.life.status();
-    const auto& x = track.state.mean;
-    point.x = x(0), point.y = x(2), point.vx = x(1) * rate, point.vy = x(3) * rate;
-    point.intensity = track.amplitude, point.existence = track.life.existence();
-    const auto& p = track.state.covariance;
-    point.var_x = p(0, 0), point.cov_xy = p(0, 2), point.var_y = p(2, 2);
-    point.mode_probability = crew.window.bank(i).probability();
-    log.report(point);
-    if (track.life.over()) log.drop(track.id, track.last_seen + 1);
-    if (track.life.confirmed() && !std::exchange(track.told, true)) {
-      log.confirm(track.id, track.first_frame);
-    }
+    glint::report(crew.tracks[i], crew.window.bank(i).probability(), at, rate, log);
   }
 }
 

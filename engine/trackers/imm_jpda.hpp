@@ -5,20 +5,19 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "glint/engine/config.hpp"
 #include "glint/engine/filters/point_starts.hpp"
+#include "glint/engine/filters/point_track.hpp"
 #include "glint/engine/filters/point_window.hpp"
+#include "glint/engine/filters/scan_points.hpp"
 #include "glint/engine/filters/step_clock.hpp"
-#include "glint/engine/filters/track_life.hpp"
 #include "glint/engine/trackers/tracker.hpp"
 #include "glint/kernels/core/device.hpp"
 
 namespace glint {
 
 /// Settings of `imm-jpda`. Positions are in px, or whatever unit the points are in.
-struct ImmJpdaConfig {
+struct ImmJpdaConfig : PointTrackConfig {
   // How a target moves.
   std::string motion = "ncv+ncv";  ///< models, "+" between
   double noise = 0.05;             ///< acceleration of ncv [px/time^2]
@@ -32,19 +31,16 @@ struct ImmJpdaConfig {
   double range_sd = 4.5, azimuth_sd = 0.03;  ///< [px], [rad]
   double gate = 13.8;                        ///< squared distance in sigmas
   double detection = 0.9;
-  std::string clutter = "poisson";  ///< poisson, any
-  double clutter_density = 0;       ///< [1/px^2]; 0 = auto
-  int window = 1;                   ///< scans
-  std::string reading = "best";     ///< restart, sliding, best
-  // How tracks come and go.
-  bool initiate = true;
-  double start_amplitude = 5;               ///< [sigma]
+  std::string clutter = "poisson";          ///< poisson, any
+  double clutter_density = 0;               ///< [1/px^2]; 0 = auto
+  int window = 1;                           ///< scans
+  std::string reading = "best";             ///< restart, sliding, best
   double position_sd = 0, velocity_sd = 1;  ///< of a known start [px], [px/time]
-  double speed_max = 4;                     ///< of a new target [px/time]
-  double separation = 4;                    ///< [px]
-  int merge_scans = 8;
-  TrackLifeConfig life{
-      .birth_existence = 0.1, .confirm_hits = 3, .confirm_window = 4, .confirm_existence = 0.9};
+
+  ImmJpdaConfig() {
+    life.birth_existence = 0.1, life.confirm_existence = 0.9;
+    life.confirm_hits = 3, life.confirm_window = 4;
+  }
 };
 void describe(FieldList& f, ImmJpdaConfig& c);
 
@@ -72,19 +68,11 @@ class ImmJpda : public Tracker {
   std::vector<std::string> notes() const override;
 
  private:
-  struct Track {
-    std::int64_t id, first_frame, last_seen;
-    TrackLife life;
-    double amplitude;
-    Gaussian<4> state;
-    bool told = false;  // the log knows that it is confirmed
-    int merged = 0;     // scans in a row that an older track was as near as `separation`
-  };
   /// Tracks that compete for points, by rising id, and their filters.
   struct Crew {
     PointWindow window;
-    std::vector<Track> tracks;
-    void add(Track track, const Imm& bank);
+    std::vector<PointTrack> tracks;
+    void add(PointTrack track, const Imm& bank);
     void remove(std::size_t i);
   };
 
@@ -103,7 +91,6 @@ class ImmJpda : public Tracker {
   ImmJpdaConfig config_;
   StepClock clock_;
   double last_time_ = 0, elapsed_ = 1;  // [s]; since the last scan [time]
-  Eigen::AlignedBox2d box_;             // about all points, if there are no frames
   std::vector<Eigen::Vector4d> known_;
   Crew confirmed_, tentative_;
   std::int64_t next_id_ = 1;
@@ -112,12 +99,10 @@ class ImmJpda : public Tracker {
 
   // Of the scan at hand.
   Eigen::Vector2d place_;  // of the sensor
-  std::vector<Eigen::Vector2d> points_;
-  std::vector<double> amplitudes_, claimed_;  // claimed: how far a point is some track's
-  double density_ = 0;                        // of false points [1/px^2]
-  std::vector<std::uint32_t> offered_;        // numbers of the points that a crew may have
+  ScanPoints points_;
+  double density_ = 0;                  // of false points [1/px^2]
+  std::vector<std::uint32_t> offered_;  // numbers of the points that a crew may have
   std::vector<Eigen::Vector2d> seen_;
-  std::vector<FreePoint> free_, free_before_;
   PointStarts starts_;
 };
 

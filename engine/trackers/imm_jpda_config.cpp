@@ -41,19 +41,11 @@ void describe_association(FieldList& f, ImmJpdaConfig& c) {
 void describe(FieldList& f, ImmJpdaConfig& c) {
   describe_motion(f, c);
   describe_association(f, c);
-  f("initiate", c.initiate, "start tracks from pairs of points that no track has");
-  f("start_amplitude", c.start_amplitude, -1000, 1e6, "sigma",
-    "least amplitude of such points, if they have any");
   f.automatic("position_sd", c.position_sd, 0, 1e6, "px",
               "spread of the position of a track that is started from a known one; auto is that of "
               "a point");
   f("velocity_sd", c.velocity_sd, 0, 1e6, "px/time", "spread of its velocity");
-  f("speed_max", c.speed_max, 0, 1e6, "px/time", "of a new target");
-  f("separation", c.separation, 0, 1e6, "px",
-    "no new track this near to a living one; a tentative track ends if it comes this near");
-  f("merge_scans", c.merge_scans, 0, 1000000, "scans",
-    "of two confirmed tracks that near for so many scans in a row the younger ends; 0 is never");
-  describe(f, c.life);
+  describe(f, static_cast<PointTrackConfig&>(c));
 }
 
 std::vector<std::string> imm_jpda_modes(const ImmJpdaConfig& config) {
@@ -77,15 +69,12 @@ Imm imm_jpda_bank(const ImmJpdaConfig& config, const Gaussian<4>& state) {
     own.covariance *= sd * sd;
     modes.emplace_back(Mode<WienerAcceleration>{{sd * sd}, embed<2>(state, own)});
   }
-  const auto count = static_cast<Eigen::Index>(modes.size());
-  const double go = count > 1 ? (1 - config.stay) / static_cast<double>(count - 1) : 0;
-  Switching switching = Switching::Constant(count, count, go);
-  switching.diagonal().setConstant(count > 1 ? config.stay : 1);
+  const std::size_t count = modes.size();
   ModeProbability probability;
-  for (Eigen::Index i = 0; i < count; ++i) {  // P-JPDA section 5: .8 .1 .1
+  for (std::size_t i = 0; i < count; ++i) {  // P-JPDA section 5: .8 .1 .1
     probability.push_back(count == 1 ? 1 : i == 0 ? 0.8 : 0.2 / static_cast<double>(count - 1));
   }
-  return {std::move(modes), switching, probability};
+  return {std::move(modes), staying(count, config.stay), probability};
 }
 
 }  // namespace glint

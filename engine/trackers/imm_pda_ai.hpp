@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "glint/engine/config.hpp"
 #include "glint/engine/filters/imm.hpp"
+#include "glint/engine/filters/scan_points.hpp"
 #include "glint/engine/models/amplitude.hpp"
 #include "glint/engine/trackers/tracker.hpp"
 #include "glint/kernels/core/device.hpp"
@@ -94,8 +93,8 @@ class ImmPdaAi : public Tracker {
   double last_time_ = 0;
 
   std::vector<Measurement> measurements_;
-  double clutter_ = 0;              ///< [1/px^2]
-  Eigen::AlignedBox2d seen_;        ///< about all points of scans without frames
+  double clutter_ = 0;  ///< [1/px^2]
+  PointArea area_;
   double amplitude_threshold_ = 0;  ///< [sigma] that every measurement exceeds
   // Of the track at hand.
   std::vector<bool> gated_;

@@ -7,14 +7,6 @@
 #include "glint/engine/trackers/imm_pda_ai.hpp"
 
 namespace glint {
-namespace {
-
-double area_of(const Scan& scan) {
-  const FrameView frame = scan.raw ? scan.raw.view() : scan.whitened.view();
-  return static_cast<double>(frame.width) * frame.height;
-}
-
-}  // namespace
 
 void ImmPdaAi::measure(const Scan& scan) {
   measurements_.clear();
@@ -56,13 +48,10 @@ void ImmPdaAi::take_units(FrameView frame) {
 }
 
 void ImmPdaAi::set_clutter(const Scan& scan) {
-  double area = area_of(scan);
-  if (area == 0) {
-    for (const Measurement& m : measurements_) seen_.extend(m.position);
-    area = seen_.isEmpty() ? 0 : seen_.volume();
-  }
+  area_.see(scan);
   const auto count = static_cast<double>(std::max<std::size_t>(measurements_.size(), 1));
-  clutter_ = config_.clutter_density > 0 ? config_.clutter_density : count / std::max(area, count);
+  clutter_ =
+      config_.clutter_density > 0 ? config_.clutter_density : count / std::max(area_.size(), count);
 }
 
 }  // namespace glint

@@ -10,8 +10,7 @@
 namespace glint {
 namespace {
 
-constexpr double kClaimed = 0.5;  // of a point: more is some track's
-constexpr double kHit = 0.25;     // number of points of a track that was seen
+constexpr double kHit = 0.25;  // number of points of a track that was seen
 
 KalmanBank bank_of(const PmhtConfig& config, const PmhtStart& start, std::uint64_t /*seed*/,
                    std::int64_t /*track*/) {
@@ -23,25 +22,7 @@ ParticleBank bank_of(const MmpfPmhtConfig& config, const PmhtStart& start, std::
   return {pmht_bank(config, start), config.particles, config.measurement_variance, seed, track};
 }
 
-Eigen::Vector2d position_of(const Gaussian<4>& state) { return {state.mean(0), state.mean(2)}; }
-
 }  // namespace
-
-void PmhtArea::see(const Scan& scan) {
-  const FrameView frame = scan.raw ? scan.raw.view() : scan.whitened.view();
-  frame_ = static_cast<double>(frame.width) * frame.height;
-  if (frame_ > 0) return;
-  for (const Point& p : scan.points) {
-    if (std::isfinite(p.x) && std::isfinite(p.y)) box_.extend(Eigen::Vector2d(p.x, p.y));
-  }
-}
-
-double PmhtArea::size(double margin) const {
-  if (frame_ > 0) return frame_;
-  if (box_.isEmpty()) return 1;
-  const Eigen::Vector2d sides = box_.sizes() + Eigen::Vector2d::Constant(2 * margin);
-  return std::max(sides.prod(), 1.0);
-}
 
 template <class Config, class Bank>
 PmhtTracker<Config, Bank>::PmhtTracker(const Config& config, const Device&, std::uint64_t seed)
@@ -50,9 +31,7 @@ PmhtTracker<Config, Bank>::PmhtTracker(const Config& config, const Device&, std:
   settings_.variance = config.measurement_variance;
   settings_.mixture = config.association == "mixture";
   settings_.iterations = config.iterations, settings_.tolerance = config.tolerance;
-  if (config.life.confirm_hits > config.life.confirm_window) {
-    throw ConfigError("confirm_hits must not exceed confirm_window: lower it or widen the window");
-  }
+  check(config);
 }
 
 /// The numbers are those of the steps in docs/trackers/pmht-imm.md. Tentative tracks get what the
@@ -76,20 +55,13 @@ void PmhtTracker<Config, Bank>::step(const Scan& scan, TrackLog& log) {
 
 template <class Config, class Bank>
 void PmhtTracker<Config, Bank>::take_points(const Scan& scan) {
-  points_.clear(), amplitudes_.clear();
-  for (const Point& p : scan.points) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-    points_.emplace_back(p.x, p.y);
-    amplitudes_.push_back(static_cast<double>(p.amplitude));
-  }
-  claimed_.assign(points_.size(), 0);
-  area_.see(scan);
+  points_.take(scan);
   const auto of_targets =
       std::ranges::count_if(tracks_, [](const Track& track) { return track.life.confirmed(); });
-  const double false_points = static_cast<double>(points_.size()) - static_cast<double>(of_targets);
-  settings_.origins.clutter = config_.clutter_density > 0
-                                  ? config_.clutter_density
-                                  : std::max(false_points, 1.0) / area_.size(config_.gate);
+  settings_.origins.clutter =
+      config_.clutter_density > 0
+          ? config_.clutter_density
+          : points_.false_density(static_cast<std::size_t>(of_targets), config_.gate);
 }
 
 template <class Config, class Bank>
@@ -109,13 +81,13 @@ void PmhtTracker<Config, Bank>::gate(bool confirmed) {
   for (Track& track : tracks_) {
     if (track.life.confirmed() != confirmed) continue;
     const auto follower = static_cast<std::uint32_t>(followers_.size());
-    pmht_gate(follower, position_of(track.state), config_.gate, points_, pairs_);
+    pmht_gate(follower, track.position(), config_.gate, points_.positions, pairs_);
     for (std::size_t m = 0; m < track.bank.probability().size(); ++m) {
       modes_.push_back(track.bank.mode(m));
     }
     followers_.push_back(&track);
   }
-  std::erase_if(pairs_, [&](const PmhtPair& pair) { return claimed_[pair.point] >= kClaimed; });
+  std::erase_if(pairs_, [&](const PmhtPair& pair) { return !points_.free(pair.point); });
 }
 
 template <class Config, class Bank>
@@ -123,7 +95,7 @@ void PmhtTracker<Config, Bank>::associate(bool confirmed, const StepTime& at) {
   gate(confirmed);
   if (followers_.empty()) return;
   const std::size_t models = modes_.size() / followers_.size();
-  em_.run(settings_, points_, pairs_, models, modes_,
+  em_.run(settings_, points_.positions, pairs_, models, modes_,
           [&](std::size_t mode, const PmhtCentroid& centroid) -> Eigen::Vector2d {
             return followers_[mode / models]->bank.maximise(mode % models, centroid);
           });
@@ -144,8 +116,8 @@ void PmhtTracker<Config, Bank>::take_in(const StepTime& at) {
     for (; k < pairs_.size() && pairs_[k].target == f; ++k) {
       const std::size_t j = pairs_[k].point;
       const double z = em_.posterior()[k];
-      claimed_[j] += z, track.weight += z, amplitude += z * amplitudes_[j];
-      track.ratio += per_density * std::exp(expected.log_density(points_[j]));
+      points_.claimed[j] += z, track.weight += z, amplitude += z * points_.amplitudes[j];
+      track.ratio += per_density * std::exp(expected.log_density(points_.positions[j]));
     }
     if (track.weight >= kHit)
       track.amplitude = amplitude / track.weight, track.last_seen = at.frame;
@@ -160,12 +132,10 @@ template <class Config, class Bank>
 void PmhtTracker<Config, Bank>::end_duplicates() {
   for (std::size_t b = 1; b < tracks_.size(); ++b) {
     Track& younger = tracks_[b];
-    bool near = false;
-    for (std::size_t a = 0; a < b && !near; ++a) {
-      near =
-          !tracks_[a].life.over() && tracks_[a].life.confirmed() &&
-          (position_of(tracks_[a].state) - position_of(younger.state)).norm() < config_.separation;
-    }
+    const bool near = std::any_of(
+        tracks_.begin(), tracks_.begin() + static_cast<std::ptrdiff_t>(b), [&](const Track& older) {
+          return older.life.confirmed() && older.near(younger.position(), config_.separation);
+        });
     younger.merged = near ? younger.merged + 1 : 0;
     const bool for_long = config_.merge_scans > 0 && younger.merged >= config_.merge_scans;
     if (near && (!younger.life.confirmed() || for_long)) younger.life.end();
@@ -176,34 +146,24 @@ template <class Config, class Bank>
 void PmhtTracker<Config, Bank>::add(const PmhtStart& start, double amplitude, bool known,
                                     const StepTime& at) {
   const std::int64_t id = next_id_++;
-  Track track{id,
-              at.frame,
-              at.frame,
-              bank_of(config_, start, seed_, id),
-              TrackLife(config_.life, known),
-              amplitude};
+  Track track{{id, at.frame, at.frame, TrackLife(config_.life, known), amplitude},
+              bank_of(config_, start, seed_, id)};
   track.state = track.bank.state();
   tracks_.push_back(std::move(track));
 }
 
 template <class Config, class Bank>
 bool PmhtTracker<Config, Bank>::crowded(const Eigen::Vector2d& position) const {
-  return std::ranges::any_of(tracks_, [&](const Track& track) {
-    return !track.life.over() && (position_of(track.state) - position).norm() < config_.separation;
-  });
+  return std::ranges::any_of(
+      tracks_, [&](const Track& track) { return track.near(position, config_.separation); });
 }
 
 template <class Config, class Bank>
 void PmhtTracker<Config, Bank>::start_tracks(const StepTime& at) {
   if (!config_.initiate) return;
-  std::swap(free_, free_before_);
-  free_.clear();
-  for (std::size_t j = 0; j < points_.size(); ++j) {
-    if (claimed_[j] >= kClaimed || amplitudes_[j] < config_.start_amplitude) continue;
-    free_.push_back({points_[j], std::isfinite(amplitudes_[j]) ? amplitudes_[j] : 0});
-  }
+  const auto pairs = starts_.next(points_, config_.start_amplitude, config_.speed_max * elapsed_);
   if (!(elapsed_ > 0)) return;
-  for (const PointStart& pair : starts_.find(free_before_, free_, config_.speed_max * elapsed_)) {
+  for (const PointStart& pair : pairs) {
     if (crowded(pair.now.position)) continue;
     add({pair.now.position, (pair.now.position - pair.before.position) / elapsed_, elapsed_},
         pair.now.amplitude, false, at);
@@ -214,24 +174,7 @@ template <class Config, class Bank>
 void PmhtTracker<Config, Bank>::report(const StepTime& at, TrackLog& log) {
   const double rate = config_.clock == "frames" ? at.velocity_scale : 1;
   for (Track& track : tracks_) {
-    if (track.life.over() && !track.life.confirmed()) {
-      log.drop(track.id, track.first_frame);
-      continue;
-    }
-    TrackPoint point;
-    point.frame = at.frame, point.time = at.time, point.track_id = track.id;
-    point.status = track.life.status();
-    const auto& x = track.state.mean;
-    point.x = x(0), point.y = x(2), point.vx = x(1) * rate, point.vy = x(3) * rate;
-    point.intensity = track.amplitude, point.existence = track.life.existence();
-    const auto& p = track.state.covariance;
-    point.var_x = p(0, 0), point.cov_xy = p(0, 2), point.var_y = p(2, 2);
-    point.mode_probability = track.bank.probability();
-    log.report(point);
-    if (track.life.over()) log.drop(track.id, track.last_seen + 1);
-    if (track.life.confirmed() && !std::exchange(track.told, true)) {
-      log.confirm(track.id, track.first_frame);
-    }
+    glint::report(track, track.bank.probability(), at, rate, log);
   }
 }
 

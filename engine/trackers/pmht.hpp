@@ -4,20 +4,19 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "glint/engine/association/pmht.hpp"
 #include "glint/engine/filters/kalman_bank.hpp"
 #include "glint/engine/filters/point_starts.hpp"
+#include "glint/engine/filters/point_track.hpp"
+#include "glint/engine/filters/scan_points.hpp"
 #include "glint/engine/filters/step_clock.hpp"
-#include "glint/engine/filters/track_life.hpp"
 #include "glint/engine/trackers/tracker.hpp"
 #include "glint/kernels/core/device.hpp"
 
 namespace glint {
 
 /// Settings of `pmht-imm`. The unit of time is that of `clock`.
-struct PmhtConfig {
+struct PmhtConfig : PointTrackConfig {
   // How a target moves.
   std::string motion = "ca+singer";
   double cv_noise = 0.02;        ///< [px^2/time^3]
@@ -35,13 +34,8 @@ struct PmhtConfig {
   std::string association = "per-model";  ///< per-model, mixture
   int iterations = 50;
   double tolerance = 1e-3;  ///< [px]
-  // How tracks come and go.
-  bool initiate = true;
-  double start_amplitude = 5;  ///< [sigma]
-  double speed_max = 20;       ///< of a new target [px/time]
-  double separation = 4;       ///< [px]
-  int merge_scans = 8;
-  TrackLifeConfig life;
+
+  PmhtConfig() { speed_max = 20; }
 };
 void describe(FieldList& f, PmhtConfig& c);
 
@@ -68,17 +62,6 @@ struct PmhtStart {
 std::vector<std::string> pmht_mode_names(const PmhtConfig& config);
 Imm pmht_bank(const PmhtConfig& config, const PmhtStart& start);
 
-/// Where points may lie: the frame, or without one the box about all points so far and a margin.
-class PmhtArea {
- public:
-  void see(const Scan& scan);
-  double size(double margin) const;  ///< [px^2], at least 1
-
- private:
-  Eigen::AlignedBox2d box_;
-  double frame_ = 0;
-};
-
 /// Where a track was expected before its scan.
 struct ExpectedPlace {
   std::int64_t track_id;
@@ -101,15 +84,9 @@ class PmhtTracker : public Tracker {
   const std::vector<ExpectedPlace>& expected() const { return expected_; }
 
  private:
-  struct Track {
-    std::int64_t id, first_frame, last_seen;
+  struct Track : PointTrack {
     Bank bank;
-    TrackLife life;
-    double amplitude;
-    Gaussian<4> state{};           // predicted, then updated
     double weight = 0, ratio = 1;  // number of its points in this scan; what they say of existence
-    bool told = false;             // the log knows that it is confirmed
-    int merged = 0;                // scans in a row that an older track was as near as `separation`
   };
 
   void take_points(const Scan& scan);
@@ -134,10 +111,7 @@ class PmhtTracker : public Tracker {
   std::vector<ExpectedPlace> expected_;
 
   // Of the scan at hand.
-  PmhtArea area_;
-  std::vector<Eigen::Vector2d> points_;
-  std::vector<double> amplitudes_, claimed_;  // claimed: how far a point is some track's
-  std::vector<FreePoint> free_, free_before_;
+  ScanPoints points_;
   PointStarts starts_;
   // Of the tracks that compete for its points.
   std::vector<Track*> followers_;

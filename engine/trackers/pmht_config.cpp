@@ -45,15 +45,7 @@ void describe_association(FieldList& f, PmhtConfig& c) {
 void describe(FieldList& f, PmhtConfig& c) {
   describe_motion(f, c);
   describe_association(f, c);
-  f("initiate", c.initiate, "start tracks from pairs of points that no track has");
-  f("start_amplitude", c.start_amplitude, -1000, 1e6, "sigma",
-    "least amplitude of such points, if they have any");
-  f("speed_max", c.speed_max, 0, 1e6, "px/time", "of a new target");
-  f("separation", c.separation, 0, 1e6, "px",
-    "no new track this near to a living one; a tentative track ends if it comes this near");
-  f("merge_scans", c.merge_scans, 0, 1000000, "scans",
-    "of two confirmed tracks that near for so many scans in a row the younger ends; 0 is never");
-  describe(f, c.life);
+  describe(f, static_cast<PointTrackConfig&>(c));
 }
 
 void describe(FieldList& f, MmpfPmhtConfig& c) {
@@ -126,13 +118,10 @@ Imm pmht_bank(const PmhtConfig& config, const PmhtStart& start) {
           mode_at(Singer{config.singer_fading, scale * config.singer_variance}, x, y));
     }
   }
-  const auto count = static_cast<Eigen::Index>(modes.size());
-  const double go = count > 1 ? (1 - config.stay) / static_cast<double>(count - 1) : 0;
-  Switching switching = Switching::Constant(count, count, go);
-  switching.diagonal().setConstant(count > 1 ? config.stay : 1);
+  const std::size_t count = modes.size();
   ModeProbability probability;
-  for (Eigen::Index i = 0; i < count; ++i) probability.push_back(1.0 / static_cast<double>(count));
-  return {std::move(modes), switching, probability};
+  for (std::size_t i = 0; i < count; ++i) probability.push_back(1.0 / static_cast<double>(count));
+  return {std::move(modes), staying(count, config.stay), probability};
 }
 
 }  // namespace glint

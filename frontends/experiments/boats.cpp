@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "glint/engine/experiments/boat_tracker.hpp"
 #include "glint/engine/experiments/monte_carlo.hpp"
 #include "glint/frontends/experiments/boat_run.hpp"
 #include "glint/frontends/experiments/recorded.hpp"
@@ -20,7 +22,7 @@ constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 std::string file_of(const std::string& data, int scenario, const char* what) {
   const std::string name = "scenario" + std::to_string(scenario) + '_' + what + ".json";
-  const std::string file = (std::filesystem::path(data) / "autoferry" / name).string();
+  std::string file = (std::filesystem::path(data) / "autoferry" / name).string();
   if (std::filesystem::exists(file)) return file;
   throw UsageError(file + ": is not there; give --data the folder that docs/boats.md describes");
 }
@@ -33,32 +35,12 @@ BoatRecord read_scenario(const std::string& data, int scenario, BoatSensor senso
   return read_autoferry(detections, file_of(data, scenario, "groundTruth"), sensor);
 }
 
-/// A tracker of the family, for boats and [m].
-struct Method {
-  const char* name;
-  int window;
-  const char* reading;
-};
-constexpr Method kSingle{"imm-jpda", 1, "best"};
-constexpr Method kRestart{"imm-mscan-jpda, reading A", 2, "restart"};
-constexpr Method kBest{"imm-mscan-jpda", 2, "best"};
-
-ImmJpdaConfig config_of(const Method& method, double sd) {
-  ImmJpdaConfig config;
-  config.clock = "seconds";
-  config.motion = "ncv+ncv", config.noise = 0.05, config.noise_agile = 0.5, config.stay = 0.95;
-  config.measurement_variance = sd * sd;
-  config.detection = 0.9, config.gate = 13.8, config.clutter_density = 5e-6;
-  config.window = method.window, config.reading = method.reading;
-  config.position_sd = 8, config.velocity_sd = 1;
-  config.speed_max = 15, config.separation = 10;
-  return config;
-}
+constexpr JpdaReading kSingle{"imm-jpda", 1, "best"};
+constexpr JpdaReading kRestart{"imm-mscan-jpda, reading A", 2, "restart"};
+constexpr JpdaReading kBest{"imm-mscan-jpda", 2, "best"};
 
 ImmJpdaConfig started_from_truth(ImmJpdaConfig config) {
-  config.initiate = false;
-  config.merge_scans = 0;
-  config.life.halt_misses = 0, config.life.halt_existence = 0;
+  keep_to_known(config);
   return config;
 }
 
@@ -67,15 +49,6 @@ ImmJpdaConfig started_by_itself(ImmJpdaConfig config, int misses) {
   config.life.confirm_existence = config.life.halt_existence = 0;
   config.life.halt_misses = misses;
   return config;
-}
-
-ExperimentRow row_of(std::string name, std::string metric, const std::vector<double>& values,
-                     std::optional<Band> band = {}) {
-  const Summary summary = summarise(values);
-  ExperimentRow row;
-  row.name = std::move(name), row.metric = std::move(metric);
-  row.ours = summary.mean, row.spread = summary.spread, row.band = band;
-  return row;
 }
 
 struct Scenario {
@@ -93,22 +66,22 @@ constexpr int kLostScenario = 3, kLostBoat = 1;
 
 void add_known_rows(const std::string& name, const BoatScore& score, const Band& ospa, bool whole,
                     ExperimentResult& result) {
-  result.rows.push_back(row_of(name, "OSPA [m]", {score.scores.mean_ospa.distance}, ospa));
-  result.rows.push_back(row_of(name, "GOSPA [m]", {score.scores.mean_gospa.distance}));
+  result.rows.push_back(value_row(name, "OSPA [m]", {score.scores.mean_ospa.distance}, ospa));
+  result.rows.push_back(value_row(name, "GOSPA [m]", {score.scores.mean_gospa.distance}));
   const std::optional<Band> none = whole ? std::optional(Band{{}, 0}) : std::nullopt;
-  result.rows.push_back(row_of(name, "boats lost", {double(score.lost)}, none));
-  result.rows.push_back(row_of(name, "boats swapped", {double(score.swapped)}, Band{{}, 0}));
+  result.rows.push_back(value_row(name, "boats lost", {double(score.lost)}, none));
+  result.rows.push_back(value_row(name, "boats swapped", {double(score.swapped)}, Band{{}, 0}));
 }
 
 /// Beside the same as positions.
 void add_polar_rows(const std::string& name, const BoatScore& positions, const BoatScore& score,
                     ExperimentResult& result) {
   const double ospa = score.scores.mean_ospa.distance;
-  result.rows.push_back(row_of(name, "OSPA [m]", {ospa}));
-  result.rows.push_back(row_of(name, "beyond that of positions [m]",
-                               {ospa - positions.scores.mean_ospa.distance}, Band{-.4, .4}));
-  result.rows.push_back(row_of(name, "boats lost", {double(score.lost)}));
-  result.rows.push_back(row_of(name, "boats swapped", {double(score.swapped)}, Band{{}, 0}));
+  result.rows.push_back(value_row(name, "OSPA [m]", {ospa}));
+  result.rows.push_back(value_row(name, "beyond that of positions [m]",
+                                  {ospa - positions.scores.mean_ospa.distance}, Band{-.4, .4}));
+  result.rows.push_back(value_row(name, "boats lost", {double(score.lost)}));
+  result.rows.push_back(value_row(name, "boats swapped", {double(score.swapped)}, Band{{}, 0}));
 }
 
 void add_own_rows(const std::string& name, const BoatScore& score, const Scenario& scenario,
@@ -117,13 +90,43 @@ void add_own_rows(const std::string& name, const BoatScore& score, const Scenari
     const std::string boat = "boat " + std::to_string(id) + ' ';
     const Band least{scenario.least_coverage[static_cast<std::size_t>(id - 1)], {}};
     const bool lost = scenario.number == kLostScenario && id == kLostBoat;
-    result.rows.push_back(row_of(name, boat + "coverage", {coverage.any}, least));
-    result.rows.push_back(row_of(name, boat + "by one track", {coverage.one},
-                                 lost ? std::nullopt : std::optional(least)));
+    result.rows.push_back(value_row(name, boat + "coverage", {coverage.any}, least));
+    result.rows.push_back(value_row(name, boat + "by one track", {coverage.one},
+                                    lost ? std::nullopt : std::optional(least)));
     result.rows.push_back(
-        row_of(name, boat + "seen at scan", {score.scores.truths.at(id).detect_delay + 1}));
+        value_row(name, boat + "seen at scan", {score.scores.truths.at(id).detect_delay + 1}));
   }
-  result.rows.push_back(row_of(name, "false tracks", {double(score.scores.false_tracks)}));
+  result.rows.push_back(value_row(name, "false tracks", {double(score.scores.false_tracks)}));
+}
+
+constexpr std::array kMethods{kSingle, kRestart, kBest};
+
+/// `runs`: the scores of every run, by method, on the same seeds.
+void add_stress_rows(int scenario, std::span<const std::vector<BoatScore>> runs,
+                     ExperimentResult& result) {
+  const auto column = [&](std::size_t method, const auto& value) {
+    std::vector<double> values;
+    for (const BoatScore& score : runs[method]) values.push_back(value(score));
+    return values;
+  };
+  const auto ospa = [](const BoatScore& s) { return s.scores.mean_ospa.distance; };
+  const auto broken = [](const BoatScore& s) { return 50.0 * (s.lost + s.swapped); };
+  for (std::size_t method = 0; method < runs.size(); ++method) {
+    const std::string name = "scenario " + std::to_string(scenario) + ", " + kMethods[method].name;
+    const std::vector<double> ours = column(method, ospa);
+    result.rows.push_back(value_row(name, "OSPA [m]", ours));
+    const bool best = method + 1 == runs.size();
+    result.rows.push_back(value_row(name, "lost or swapped [%]", column(method, broken),
+                                    best ? std::optional(Band{{}, 1.5}) : std::nullopt));
+    if (method == 0) continue;
+    std::vector<double> gains = column(0, ospa);
+    for (std::size_t r = 0; r < gains.size(); ++r) gains[r] -= ours[r];
+    const Summary gain = summarise(gains);
+    const double error = gain.spread / std::sqrt(static_cast<double>(gains.size()));
+    result.rows.push_back(value_row(name, "below imm-jpda's [m]", gains));
+    result.rows.push_back(value_row(name, "the same in errors", {gain.mean / error},
+                                    scenario == 5 ? std::nullopt : std::optional(Band{2, {}})));
+  }
 }
 
 }  // namespace
@@ -136,17 +139,15 @@ ExperimentResult run_jpda_boats(const ExperimentOptions& options, Workers&) {
     near.reach = 100;
     const BoatRecord lidar =
         changed(read_scenario(options.data, s.number, BoatSensor::lidar), near);
-    for (const Method& method : {kSingle, kRestart, kBest}) {
+    for (const JpdaReading& method : kMethods) {
       const std::string title = "scenario " + std::to_string(s.number) + ", " + method.name;
-      const ImmJpdaConfig config = config_of(method, 5);
-      add_known_rows(title + ", radar",
-                     follow_boats(radar, started_from_truth(config), kEverywhere), s.radar,
-                     s.number != kLostScenario, result);
-      ImmJpdaConfig polar = config;
+      const ImmJpdaConfig config = boat_tracker(method);
+      const BoatScore known = follow_boats(radar, started_from_truth(config), kEverywhere);
+      add_known_rows(title + ", radar", known, s.radar, s.number != kLostScenario, result);
+      ImmJpdaConfig polar = started_from_truth(config);
       polar.measurement = "range-azimuth", polar.range_sd = 4.5, polar.azimuth_sd = .03;
-      add_polar_rows(title + ", radar as range and azimuth",
-                     follow_boats(radar, started_from_truth(config), kEverywhere),
-                     follow_boats(radar, started_from_truth(polar), kEverywhere), result);
+      add_polar_rows(title + ", radar as range and azimuth", known,
+                     follow_boats(radar, polar, kEverywhere), result);
       add_own_rows(title + ", radar, own start",
                    follow_boats(radar, started_by_itself(config, 5), kEverywhere), s, result);
       add_known_rows(title + ", lidar", follow_boats(lidar, started_from_truth(config), near.reach),
@@ -157,9 +158,9 @@ ExperimentResult run_jpda_boats(const ExperimentOptions& options, Workers&) {
 }
 
 ExperimentResult run_jpda_boats_stress(const ExperimentOptions& options, Workers& workers) {
-  constexpr std::array kMethods{kSingle, kRestart, kBest};
   constexpr std::array kNumbers{2, 5, 16};
   std::vector<BoatRecord> records;
+  records.reserve(kNumbers.size());
   for (const int n : kNumbers) {
     records.push_back(read_scenario(options.data, n, BoatSensor::radar));
   }
@@ -168,37 +169,15 @@ ExperimentResult run_jpda_boats_stress(const ExperimentOptions& options, Workers
       options.progress, [&](std::size_t which, std::size_t run) {
         BoatTrial trial;
         trial.keep = 0.7, trial.clutter = 3e-4, trial.seed = options.seed + run;
-        ImmJpdaConfig config = started_from_truth(config_of(kMethods[which % kMethods.size()], 5));
+        ImmJpdaConfig config = started_from_truth(boat_tracker(kMethods[which % kMethods.size()]));
         config.clutter_density = 3e-4;
         config.detection = 0.63;
         return follow_boats(changed(records[which / kMethods.size()], trial), config, kEverywhere);
       });
   ExperimentResult result;
-  const auto column = [&](std::size_t which, const auto& value) {
-    std::vector<double> values;
-    for (const BoatScore& score : runs[which]) values.push_back(value(score));
-    return values;
-  };
-  const auto ospa = [](const BoatScore& s) { return s.scores.mean_ospa.distance; };
-  const auto broken = [](const BoatScore& s) { return 50.0 * (s.lost + s.swapped); };
-  for (std::size_t which = 0; which < runs.size(); ++which) {
-    const std::size_t scenario = which / kMethods.size(), method = which % kMethods.size();
-    const std::string name =
-        "scenario " + std::to_string(kNumbers[scenario]) + ", " + kMethods[method].name;
-    result.rows.push_back(row_of(name, "OSPA [m]", column(which, ospa)));
-    const bool best = method + 1 == kMethods.size();
-    result.rows.push_back(row_of(name, "lost or swapped [%]", column(which, broken),
-                                 best ? std::optional(Band{{}, 1.5}) : std::nullopt));
-    if (method == 0) continue;
-    std::vector<double> gains = column(which - method, ospa);
-    const std::vector<double> ours = column(which, ospa);
-    for (std::size_t r = 0; r < gains.size(); ++r) gains[r] -= ours[r];
-    const Summary gain = summarise(gains);
-    const double error = gain.spread / std::sqrt(static_cast<double>(gains.size()));
-    result.rows.push_back(row_of(name, "below imm-jpda's [m]", gains));
-    result.rows.push_back(
-        row_of(name, "the same in errors", {gain.mean / error},
-               kNumbers[scenario] == 5 ? std::nullopt : std::optional(Band{2, {}})));
+  for (std::size_t i = 0; i < kNumbers.size(); ++i) {
+    add_stress_rows(kNumbers[i], std::span(runs).subspan(i * kMethods.size(), kMethods.size()),
+                    result);
   }
   return result;
 }

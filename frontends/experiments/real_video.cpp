@@ -113,22 +113,15 @@ const std::array kFigures{
            nullptr, false},
 };
 
-ExperimentRow row_of(std::string name, std::string metric, const std::vector<double>& values) {
-  const Summary summary = summarise(values);
-  ExperimentRow row;
-  row.name = std::move(name), row.metric = std::move(metric);
-  row.ours = summary.mean, row.spread = summary.spread;
-  return row;
-}
-
 /// `runs`: the scores of every run, one a tracker.
 void add_rows(const Case& c, const std::vector<std::vector<ClipScore>>& runs,
               ExperimentResult& result) {
   for (std::size_t t = 0; t < kTrackers.size(); ++t) {
     for (const Figure& figure : kFigures) {
       std::vector<double> values;
+      values.reserve(runs.size());
       for (const auto& scores : runs) values.push_back(figure.of(scores[t]));
-      ExperimentRow row = row_of(c.title(kTrackers[t]), figure.metric, values);
+      ExperimentRow row = value_row(c.title(kTrackers[t]), figure.metric, values);
       if (t == 0 && figure.wanted != nullptr && c.wanted.*figure.wanted) {
         const std::optional<double> end = c.wanted.*figure.wanted;
         row.band = figure.low ? Band{end, {}} : Band{{}, end};
@@ -149,8 +142,8 @@ void add_noise_rows(const char* profile, std::uint64_t seed, Workers& workers,
   for (std::size_t t = 0; t < kTrackers.size(); ++t) {
     double tracks = 0;
     for (const auto& run : runs) tracks += run[t];
-    ExperimentRow row = row_of(std::string("white noise (") + profile + "), " + kTrackers[t],
-                               "tracks in 3 x 320 frames", {tracks});
+    ExperimentRow row = value_row(std::string("white noise (") + profile + "), " + kTrackers[t],
+                                  "tracks in 3 x 320 frames", {tracks});
     if (t == 0) row.band = Band{{}, 1};
     result.rows.push_back(std::move(row));
   }
@@ -160,8 +153,8 @@ void add_aircraft_rows(const ClipInput& clip, const std::string& intensity, doub
                        ExperimentResult& result) {
   const AircraftClip score = follow_aircraft(clip.frames, clip.truth, intensity);
   const std::string name = "V_HELICOPTER_013, h-pmht, " + intensity;
-  ExperimentRow hit = row_of(name, "hit on target [%]", {score.hit});
-  ExperimentRow deviation = row_of(name, "deviation [px]", {score.deviation});
+  ExperimentRow hit = value_row(name, "hit on target [%]", {score.hit});
+  ExperimentRow deviation = value_row(name, "deviation [px]", {score.deviation});
   hit.band = Band{100, {}}, deviation.band = Band{{}, most};
   result.rows.insert(result.rows.end(), {std::move(hit), std::move(deviation)});
 }

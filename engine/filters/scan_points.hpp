@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "glint/engine/scan.hpp"
+
+namespace glint {
+
+/// Where points may lie: the frame, or without one the box about all points so far.
+class PointArea {
+ public:
+  void see(const Scan& scan);
+  /// With `margin` [px] about a box; at least 1 px^2.
+  double size(double margin = 0) const;
+
+ private:
+  Eigen::AlignedBox2d box_;
+  double frame_ = 0;  // [px^2]
+};
+
+/// The points of a scan as trackers take them: those whose place is known, and how far each is some
+/// track's.
+struct ScanPoints {
+  static constexpr double kClaimed = 0.5;  ///< a point of which more is taken is no other track's
+
+  std::vector<Eigen::Vector2d> positions;  ///< [px]
+  std::vector<double> amplitudes;          ///< [sigma]; NaN if not known
+  std::vector<double> claimed;
+  PointArea area;
+
+  void take(const Scan& scan);
+  bool free(std::size_t point) const { return claimed[point] < kClaimed; }
+  /// Of the points beyond one a target, at least one point [1/px^2].
+  double false_density(std::size_t targets, double margin = 0) const;
+};
+
+}  // namespace glint
