@@ -17,6 +17,7 @@ struct Scan {
   double noise_sigma = 1;             ///< median of the noise map [grey levels]
   double sensor_x = 0, sensor_y = 0;  ///< where it stands, for points of range and azimuth [px]
   std::span<const Point> points;      ///< of this frame; only if some tracker feeds on points
+  bool looked = true;  ///< false: the sensor of points did not look, which is no miss
 };
 
 }  // namespace glint

@@ -80,18 +80,21 @@ Token* Scheduler::State::read(Source& source, const std::stop_token& stop) {
 
 void Scheduler::State::prepare(Token& token) {
   preparing.pass(token, [&] {
-    if (token.source->points) {
-      token.points = std::move(*token.source->points);
-      token.scan.frame = token.frame, token.scan.time = token.source->time;
-      token.scan.points = token.points;
-      token.source.reset();
-      return;
+    SourceFrame& source = *token.source;
+    if (source.points && source.pixels.width == 0) {
+      token.scan.frame = token.frame, token.scan.time = source.time;
+    } else {
+      token.scan = preparer.prepare(source.pixels, token.frame, source.time);
     }
-    token.scan = preparer.prepare(token.source->pixels, token.frame, token.source->time);
+    token.scan.sensor_x = source.sensor_x, token.scan.sensor_y = source.sensor_y;
+    token.scan.looked = source.looked;
+    if (source.points) {
+      token.points = std::move(*source.points);
+    } else if (finds_points) {
+      finder.find(token.scan, token.points);
+    }
     token.source.reset();
-    if (!finds_points) return;
-    finder.find(token.scan, token.points);
-    token.scan.points = token.points;
+    if (finds_points) token.scan.points = token.points;
   });
   if (token.failed) stopping = true;
 }
@@ -99,7 +102,9 @@ void Scheduler::State::prepare(Token& token) {
 void Scheduler::State::track(std::size_t i, Token& token) {
   Lane& lane = lanes[i];
   lane.stage.pass(token, [&] {
-    lane.tracker->step(token.scan, lane.log);
+    if (token.scan.looked || lane.tracker->feed() != Feed::points) {
+      lane.tracker->step(token.scan, lane.log);
+    }
     lane.log.at(token.frame, token.reported[i]);
   });
   if (token.failed) stopping = true;

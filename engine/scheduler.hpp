@@ -14,13 +14,15 @@
 
 namespace glint {
 
-/// A raw frame that owns its pixels, or the points of a scan without a frame.
+/// A raw frame that owns its pixels, the points of a scan, or both.
 struct SourceFrame {
-  RawPixels pixels;                   ///< points into `owner`
+  RawPixels pixels;                   ///< points into `owner`; without width if there is no frame
   std::shared_ptr<const void> owner;  ///< keeps the pixels alive; let go of on any thread
   double time = 0;                    ///< [s]
-  /// Given instead of pixels by sources that know points alone.
+  /// Given by sources that know the points; without them they are looked for in the pixels.
   std::optional<std::vector<Point>> points;
+  double sensor_x = 0, sensor_y = 0;  ///< where that which saw the points stands [px]
+  bool looked = true;  ///< false: it did not look; trackers of points alone pass the frame over
 };
 
 /// Where frames come from.

@@ -11,6 +11,7 @@
 #include "glint/frontends/config/settings.hpp"
 #include "glint/frontends/files/noisy_source.hpp"
 #include "glint/frontends/files/open_source.hpp"
+#include "glint/frontends/files/points_source.hpp"
 #include "glint/kernels/prepare_frame/prepare_frame.hpp"
 
 namespace glint::cli {
@@ -94,15 +95,6 @@ Image<std::uint8_t> read_mask(const std::string& path, const Device& device) {
   return mask;
 }
 
-FramePreparer make_preparer(const FrameJob& job) {
-  FramePreparer preparer(job.config<FramesConfig>("frames"), job.device);
-  const std::string& mask = job.run().mask;
-  if (!mask.empty()) preparer.set_mask(read_mask(mask, job.device));
-  const int ahead = job.config<FramesConfig>("frames").background_prime;
-  if (ahead > 0) prime_background(preparer, *open_frames(job), ahead);
-  return preparer;
-}
-
 void refuse_what_needs_frames(const FrameJob& job) {
   const std::string& input = job.inputs.front();
   for (const std::string& tracker : job.trackers) {
@@ -114,6 +106,38 @@ void refuse_what_needs_frames(const FrameJob& job) {
   if (job.run().add_noise > 0) {
     throw UsageError(input + ": holds points, and noise is for frames; leave --add-noise out");
   }
+  if (!job.run().points.empty()) {
+    throw UsageError(input + ": holds points already; leave --points out, or give it with frames");
+  }
+}
+
+/// The frames (or points) themselves, with noise added if so configured.
+std::unique_ptr<Source> open_input(const FrameJob& job, const Warn& on_warning) {
+  const RunConfig& run = job.run();
+  const auto seed = static_cast<std::uint64_t>(run.seed);
+  SourceOptions options;
+  options.seed = seed;
+  options.warn = on_warning;
+  if (run.fps > 0) options.frame_rate = run.fps;
+  ConfigSection scene;
+  if (const auto name = scene_name(job.inputs.front())) {
+    scene = section_named(job.sections, "scenes." + std::string(*name));
+    options.scene = &scene;
+  }
+  if (holds_points(job)) refuse_what_needs_frames(job);
+  auto source = open_source(job.inputs, options);
+  if (run.add_noise == 0) return source;
+  return std::make_unique<NoisySource>(std::move(source), run.add_noise, seed, job.device);
+}
+
+FramePreparer make_preparer(const FrameJob& job) {
+  FramePreparer preparer(job.config<FramesConfig>("frames"), job.device);
+  const std::string& mask = job.run().mask;
+  if (!mask.empty()) preparer.set_mask(read_mask(mask, job.device));
+  const int ahead = job.config<FramesConfig>("frames").background_prime;
+  // What there is to warn of, the run itself says.
+  if (ahead > 0) prime_background(preparer, *open_input(job, [](const std::string&) {}), ahead);
+  return preparer;
 }
 
 }  // namespace
@@ -170,21 +194,9 @@ FrameJob settle(const FrameOptions& options, const std::vector<std::string>& mor
 }
 
 std::unique_ptr<Source> open_frames(const FrameJob& job) {
-  const RunConfig& run = job.run();
-  const auto seed = static_cast<std::uint64_t>(run.seed);
-  SourceOptions options;
-  options.seed = seed;
-  options.warn = warn;
-  if (run.fps > 0) options.frame_rate = run.fps;
-  ConfigSection scene;
-  if (const auto name = scene_name(job.inputs.front())) {
-    scene = section_named(job.sections, "scenes." + std::string(*name));
-    options.scene = &scene;
-  }
-  if (holds_points(job)) refuse_what_needs_frames(job);
-  auto source = open_source(job.inputs, options);
-  if (run.add_noise == 0) return source;
-  return std::make_unique<NoisySource>(std::move(source), run.add_noise, seed, job.device);
+  auto frames = open_input(job, warn);
+  const std::string& points = job.run().points;
+  return points.empty() ? std::move(frames) : with_points(std::move(frames), points, warn);
 }
 
 Scheduler make_scheduler(const FrameJob& job) {

@@ -47,8 +47,8 @@ FrameJob settle(const FrameOptions& options, const std::vector<std::string>& mor
 
 /// Whether the input is a file of points, without frames.
 bool holds_points(const FrameJob& job);
-/// The input, with noise added if so configured. Throws UsageError if it holds points and something
-/// needs frames.
+/// The input, with noise added and points beside it if so configured. Throws UsageError if it holds
+/// points and something needs frames.
 std::unique_ptr<Source> open_frames(const FrameJob& job);
 /// Without trackers and sinks.
 Scheduler make_scheduler(const FrameJob& job);

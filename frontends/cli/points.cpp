@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "glint/frontends/cli/points_file.hpp"
+#include "glint/frontends/usage_error.hpp"
 
 namespace glint::cli {
 namespace {
@@ -16,6 +17,9 @@ struct PointsOptions {
 
 void find_all_points(const PointsOptions& options) {
   const FrameJob job = settle(options.frames, {"points"});
+  if (!job.run().points.empty()) {
+    throw UsageError("glint points finds the points itself; leave run.points out");
+  }
   const auto source = open_frames(job);
   PointsFile points(options.out, job);
   const std::int64_t frames = run_sinks(job, *source, {&points});

@@ -131,6 +131,11 @@ void add_track(CLI::App& app) {
       ->add_option("--tracker", options->trackers,
                    "which tracker (" + tracker_names() + "); repeatable")
       ->allow_extra_args(false);
+  command->add_option_function<std::string>(
+      "--points",
+      [options](const std::string& v) { options->frames.run.emplace_back("points", v); },
+      "points (.csv, .jsonl) that go with the frames, by frame or time, for trackers of points, "
+      "instead of those found in the frames");
   command
       ->add_option("--out", options->outputs.tracks,
                    "tracks as .csv, .jsonl or .mot.txt (confirmed only, with the run's settings "
@@ -149,6 +154,7 @@ void add_track(CLI::App& app) {
       "  glint track clip.mp4 --tracker smc-phd --add-noise 53 --seed 2 --out noisy.csv\n"
       "  glint track clip.mp4 --tracker mm-phd --profile L --out tracks.csv\n"
       "  glint track points.csv --tracker imm-pda-ai --out tracks.csv\n"
+      "  glint track clip.mp4 --points radar.csv --tracker mm-phd --tracker imm-jpda --out t.csv\n"
       "  glint track clip.mp4 --config tracks.csv      repeats the run that wrote it\n"
       "All settings: glint config TRACKER");
   command->callback([options] { track(*options); });

@@ -3,134 +3,19 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
-#include <fstream>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "glint/frontends/files/csv.hpp"
-#include "glint/frontends/usage_error.hpp"
+#include "glint/frontends/files/point_scans.hpp"
 
 namespace glint {
 namespace {
 
-constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<std::string_view, 8> kColumns{"frame", "time",    "x",         "y",
-                                                   "range", "azimuth", "elevation", "amplitude"};
-enum Column : std::size_t { frame, time, x, y, range, azimuth, elevation, amplitude };
-
-/// Of one line; what is not there is NaN.
-using Row = std::array<double, kColumns.size()>;
-
-struct PointScan {
-  std::int64_t frame = 0;
-  double time = 0;  ///< [s]
-  std::vector<Point> points;
-};
-
-/// Gathers rows to scans.
-class Scans {
- public:
-  Scans(std::string path, double interval) : path_(std::move(path)), interval_(interval) {}
-
-  void add(const Row& row, std::int64_t line) {
-    if (std::isnan(row[frame]) && std::isnan(row[time])) {
-      refuse(line, "has neither frame nor time; give one of them");
-    }
-    if (!std::isnan(row[frame]) &&
-        (!(row[frame] >= 0 && row[frame] < 0x1p53) || row[frame] != std::trunc(row[frame]))) {
-      refuse(line, fmt::format("frame must be a whole number from 0, got {}", row[frame]));
-    }
-    if (scans_.empty() || is_new(row)) begin(row, line);
-    if (const auto point = point_of(row, line)) scans_.back().points.push_back(*point);
-  }
-  std::vector<PointScan> take() { return std::move(scans_); }
-
- private:
-  [[noreturn]] void refuse(std::int64_t line, const std::string& why) const {
-    throw std::runtime_error(fmt::format("{}:{}: {}", path_, line, why));
-  }
-
-  bool is_new(const Row& row) const {
-    if (!std::isnan(row[frame])) return static_cast<double>(scans_.back().frame) != row[frame];
-    return scans_.back().time != row[time];
-  }
-
-  void begin(const Row& row, std::int64_t line) {
-    PointScan next;
-    next.frame = scans_.empty() ? 0 : scans_.back().frame + 1;
-    if (!std::isnan(row[frame])) next.frame = static_cast<std::int64_t>(row[frame]);
-    next.time = std::isnan(row[time]) ? interval_ * static_cast<double>(next.frame) : row[time];
-    if (!scans_.empty() && next.frame <= scans_.back().frame) {
-      refuse(line, fmt::format("frame {} comes after frame {}; sort the rows by frame", next.frame,
-                               scans_.back().frame));
-    }
-    constexpr std::int64_t kFar = 1'000'000;
-    if (next.frame - (scans_.empty() ? 0 : scans_.back().frame) > kFar) {
-      refuse(line, fmt::format("frame {} is more than {} frames after the one before; give a time "
-                               "instead if it is no number of a frame",
-                               next.frame, kFar));
-    }
-    if (!scans_.empty() && !(next.time > scans_.back().time)) {
-      refuse(line, fmt::format("time {} comes after time {}; sort the rows by time", next.time,
-                               scans_.back().time));
-    }
-    scans_.push_back(std::move(next));
-  }
-
-  std::optional<Point> point_of(const Row& row, std::int64_t line) const {
-    const double strength = row[amplitude];
-    const auto at = [strength](double px, double py) {
-      return Point{static_cast<float>(px), static_cast<float>(py), static_cast<float>(strength)};
-    };
-    const bool has_x = !std::isnan(row[x]), has_range = !std::isnan(row[range]);
-    if (has_x != !std::isnan(row[y]) || has_range != !std::isnan(row[azimuth])) {
-      refuse(line, "holds half a position; give x and y, or range and azimuth, or none of them");
-    }
-    if (has_x) return at(row[x], row[y]);
-    if (!has_range) return std::nullopt;
-    const double up = std::isnan(row[elevation]) ? 0 : row[elevation];
-    const double ground = row[range] * std::cos(up);
-    return at(ground * std::cos(row[azimuth]), ground * std::sin(row[azimuth]));
-  }
-
-  std::string path_;
-  double interval_;
-  std::vector<PointScan> scans_;
-};
-
-void read_table(const std::string& path, Scans& scans) {
-  read_csv(path, {}, kColumns, [&](const CsvRow& cells) {
-    Row row;
-    for (std::size_t i = 0; i < row.size(); ++i) row[i] = cells.number(i);
-    scans.add(row, cells.line());
-  });
-}
-
-void read_lines(const std::string& path, Scans& scans) {
-  std::ifstream file(path);
-  if (!file) throw UsageError(path + ": cannot be read; check the path");
-  std::string text;
-  for (std::int64_t line = 1; std::getline(file, text); ++line) {
-    if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-    Row row;
-    row.fill(kAbsent);
-    try {
-      const auto object = nlohmann::json::parse(text);
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        const auto found = object.find(kColumns[i]);
-        if (found != object.end() && !found->is_null()) row[i] = found->get<double>();
-      }
-    } catch (const nlohmann::json::exception& e) {
-      throw std::runtime_error(fmt::format("{}:{}: must be one JSON object of numbers a line: {}",
-                                           path, line, e.what()));
-    }
-    scans.add(row, line);
-  }
+void take(PointScan& scan, SourceFrame& frame) {
+  frame.points = std::move(scan.points);
+  frame.sensor_x = scan.sensor_x, frame.sensor_y = scan.sensor_y;
 }
 
 /// Delivers a scan for every frame from 0 on, empty where the file has none.
@@ -148,7 +33,7 @@ class PointsSource : public Source {
       result.points.emplace();
     } else {
       result.time = scan.time;
-      result.points = std::move(scan.points);
+      take(scan, result);
       ++at_;
     }
     ++frame_;
@@ -182,18 +67,76 @@ double rate_of(const std::vector<PointScan>& scans) {
          (scans.back().time - scans.front().time);
 }
 
+/// Frames of one source, each with the points of its number, or, if the points have none, of its
+/// time.
+class PairedSource : public Source {
+ public:
+  PairedSource(std::unique_ptr<Source> frames, PointScans points, std::string path, Warn warn)
+      : frames_(std::move(frames)),
+        points_(std::move(points)),
+        path_(std::move(path)),
+        warn_(std::move(warn)) {}
+
+  std::optional<SourceFrame> next() override {
+    auto frame = frames_->next();
+    if (!frame) {
+      warn_of_rest();
+      return std::nullopt;
+    }
+    if (at_ < points_.scans.size() && belongs(points_.scans[at_], frame->time)) {
+      take(points_.scans[at_++], *frame);
+    } else {
+      // A file of times names every scan that there was, one of frames may leave empty ones out.
+      frame->points.emplace(), frame->looked = points_.numbered;
+    }
+    ++frame_;
+    return frame;
+  }
+  std::optional<std::int64_t> frame_count() const override { return frames_->frame_count(); }
+  double frame_rate() const override { return frames_->frame_rate(); }
+
+ private:
+  /// Whether the next scan is this frame's. A scan of times alone is the frame's that lies at most
+  /// half an interval away.
+  bool belongs(const PointScan& scan, double time) const {
+    if (points_.numbered) return scan.frame == frame_;
+    constexpr double kRounding = 1e-6;
+    const double reach = (0.5 + kRounding) / frames_->frame_rate();
+    if (scan.time > time + reach) return false;
+    if (scan.time >= time - reach) return true;
+    throw std::runtime_error(fmt::format(
+        "{}: the points at {} s belong to no frame (frame {} is at {} s, and of two scans near one "
+        "frame only one can be its own); give the rows frame numbers",
+        path_, scan.time, frame_, time));
+  }
+
+  void warn_of_rest() {
+    const std::size_t rest = points_.scans.size() - std::exchange(at_, points_.scans.size());
+    if (rest == 0) return;
+    warn_(fmt::format("{}: {} scans of points come after the last frame and were not used", path_,
+                      rest));
+  }
+
+  std::unique_ptr<Source> frames_;
+  PointScans points_;
+  std::string path_;
+  Warn warn_;
+  std::size_t at_ = 0;
+  std::int64_t frame_ = 0;
+};
+
 }  // namespace
 
 std::unique_ptr<Source> open_points(const std::string& path, std::optional<double> frame_rate) {
-  Scans gathered(path, 1 / frame_rate.value_or(1));
-  if (path.ends_with(".jsonl")) {
-    read_lines(path, gathered);
-  } else {
-    read_table(path, gathered);
-  }
-  std::vector<PointScan> scans = gathered.take();
+  std::vector<PointScan> scans = read_points(path, 1 / frame_rate.value_or(1)).scans;
   const double rate = frame_rate.value_or(rate_of(scans));
   return std::make_unique<PointsSource>(std::move(scans), rate);
+}
+
+std::unique_ptr<Source> with_points(std::unique_ptr<Source> frames, const std::string& path,
+                                    const Warn& warn) {
+  PointScans points = read_points(path, 1 / frames->frame_rate());
+  return std::make_unique<PairedSource>(std::move(frames), std::move(points), path, warn);
 }
 
 }  // namespace glint

@@ -5,19 +5,22 @@
 #include <string>
 
 #include "glint/engine/scheduler.hpp"
+#include "glint/frontends/usage_error.hpp"
 
 namespace glint {
 
-/// Points that some sensor found, as scans without frames. A .csv table has one point a row, a
-/// .jsonl file one object a line, with x and y, or range and azimuth [rad] (and elevation [rad]),
-/// which become a position x = range cos(azimuth) cos(elevation), y likewise by the sine; amplitude
-/// (NaN, unknown, without it); and frame, time [s], or both. Rows of one frame, or without frames
-/// of one time, are one scan; rows without coordinates say that a scan has no points, as do frames
-/// that are left out. Scans without a time are 1 / `frame_rate` apart (1 s).
-///
-/// Throws UsageError if the file cannot be read; std::runtime_error with file, line and remedy if
-/// something is missing, is no number, or goes back in frames or time.
+/// The points of a file (read_points()) as scans without frames, one for every frame from 0 on:
+/// frames that the file leaves out have no points. Scans without a time are 1 / `frame_rate` apart
+/// (1 s). Throws as read_points() does.
 std::unique_ptr<Source> open_points(const std::string& path,
                                     std::optional<double> frame_rate = std::nullopt);
+
+/// `frames` with the points of a file, for trackers of both side by side. Rows with a frame go to
+/// the frame of that number, and other frames have no points; rows of a time alone go to the one at
+/// most half an interval away, and at other frames the sensor did not look. Times are the frames'.
+/// `warn` is told of points after the last frame. Throws as read_points() does; next() throws
+/// std::runtime_error if points lie between the frames.
+std::unique_ptr<Source> with_points(std::unique_ptr<Source> frames, const std::string& path,
+                                    const Warn& warn);
 
 }  // namespace glint
