@@ -129,7 +129,7 @@ template <class Sensor>
 template <int N>
 void ImmWindow<Sensor>::gate_of(const Gaussian<N>& predicted, Target& target,
                                 const PastScan& scan) {
-  const auto expected = predict_measurement(predicted, scan.sensor);
+  const auto expected = predict_measurement(predicted, scan.sensor, settings_.linearisation);
   target.volume = std::max(target.volume, expected.gate_volume(settings_.gate));
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     if (expected.distance(scan.points[i]) <= settings_.gate) gated_[i] = true;
@@ -171,7 +171,7 @@ template <int N>
 void ImmWindow<Sensor>::update_mode(const Gaussian<N>& predicted, std::size_t mode,
                                     std::span<Bank> children, const Target& target,
                                     const PastScan& scan) {
-  const auto expected = predict_measurement(predicted, scan.sensor);
+  const auto expected = predict_measurement(predicted, scan.sensor, settings_.linearisation);
   Gaussian<N> belief = predicted;
   belief.covariance -= expected.gain * expected.covariance * expected.gain.transpose();
   symmetrise(belief.covariance);

@@ -8,7 +8,7 @@
 
 #include "glint/engine/association/multiscan_jpda.hpp"
 #include "glint/engine/filters/imm.hpp"
-#include "glint/engine/models/measurement.hpp"
+#include "glint/engine/filters/measurement_prediction.hpp"
 
 namespace glint {
 
@@ -25,6 +25,7 @@ struct ImmWindowSettings {
   double gate = 13.8;        ///< squared distance
   MultiscanSettings events;  ///< with the best permutation: C*
   JpdaClutter::Number clutter = JpdaClutter::Number::poisson;
+  Linearisation linearisation = Linearisation::tangent;  ///< of a curved measurement
 };
 
 /// Targets followed together, each by a bank of motion models: IMM-JPDA over a window of scans,

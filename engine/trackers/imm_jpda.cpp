@@ -14,6 +14,7 @@ ImmWindowSettings settings_of(const ImmJpdaConfig& config, int scans) {
   settings.reading = config.reading == "restart" ? WindowReading::restart : WindowReading::sliding;
   settings.detection = config.detection, settings.gate = config.gate;
   settings.events.best_permutation = config.reading == "best";
+  if (config.linearisation == "ukf") settings.linearisation = Linearisation::chords;
   if (config.clutter == "any") settings.clutter = JpdaClutter::Number::any;
   return settings;
 }

@@ -29,6 +29,7 @@ struct ImmJpdaConfig : PointTrackConfig {
   std::string measurement = "position";      ///< position, range-azimuth
   double measurement_variance = 1;           ///< [px^2]
   double range_sd = 4.5, azimuth_sd = 0.03;  ///< [px], [rad]
+  std::string linearisation = "ekf";         ///< ekf, ukf
   double gate = 13.8;                        ///< squared distance in sigmas
   double detection = 0.9;
   std::string clutter = "poisson";          ///< poisson, any
