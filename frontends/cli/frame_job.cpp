@@ -119,6 +119,7 @@ std::unique_ptr<Source> open_input(const FrameJob& job, const Warn& on_warning) 
   options.seed = seed;
   options.warn = on_warning;
   if (run.fps > 0) options.frame_rate = run.fps;
+  if (!run.format.empty() || !run.size.empty()) options.raw = raw_format(run.format, run.size);
   ConfigSection scene;
   if (const auto name = scene_name(job.inputs.front())) {
     scene = section_named(job.sections, "scenes." + std::string(*name));
@@ -135,8 +136,14 @@ FramePreparer make_preparer(const FrameJob& job) {
   const std::string& mask = job.run().mask;
   if (!mask.empty()) preparer.set_mask(read_mask(mask, job.device));
   const int ahead = job.config<FramesConfig>("frames").background_prime;
+  if (ahead == 0) return preparer;
+  if (job.inputs.front() == "-") {
+    throw UsageError(
+        "frames.background_prime reads the input twice, and standard input can be "
+        "read once; leave it out, or give a file");
+  }
   // What there is to warn of, the run itself says.
-  if (ahead > 0) prime_background(preparer, *open_input(job, [](const std::string&) {}), ahead);
+  prime_background(preparer, *open_input(job, [](const std::string&) {}), ahead);
   return preparer;
 }
 
@@ -163,11 +170,16 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
   command
       .add_option("INPUT", options.inputs,
                   "video, images (folder, pattern like f_%04d.png, list, multi-page TIFF), FITS "
-                  "files or cubes, .npy cube, points (.csv, .jsonl), or scene:NAME")
+                  "files or cubes, .npy cube, points (.csv, .jsonl), - (raw frames from standard "
+                  "input), or scene:NAME")
       ->required();
   add_run_options(command, options);
   add_run_option(command, options, "--fps", "fps",
                  "frame rate, instead of the input's own (images: 1)");
+  add_run_option(command, options, "--format", "format",
+                 "of frames without a header, from a file, a pipe or - (standard input): gray8, "
+                 "gray16le or grayf32le");
+  add_run_option(command, options, "--size", "size", "of frames without a header, e.g. 640x512");
   add_run_option(command, options, "--add-noise", "add_noise",
                  "sigma of Gaussian noise to add first [grey levels]");
   add_run_option(command, options, "--mask", "mask",

@@ -22,7 +22,7 @@ struct FrameOptions {
 /// Adds --profile, --config, --set, --device, --threads, --seed and --quiet. `options` must live as
 /// long as the command.
 void add_run_options(CLI::App& command, FrameOptions& options);
-/// Adds INPUT..., the run options, --fps, --add-noise and --mask.
+/// Adds INPUT..., the run options, --fps, --format, --size, --add-noise and --mask.
 void add_frame_options(CLI::App& command, FrameOptions& options);
 
 /// What a run of frames is made of, settled from file and options. Order: defaults, --profile,

@@ -53,6 +53,9 @@ void describe(FieldList& list, RunConfig& c) {
        "sigma of white Gaussian noise added to every frame, for trials");
   list("fps", c.fps, 0, 1e6, "frames/s", "frame rate; 0 = the input's own");
   list("mask", c.mask, {}, "image of the frames' size; pixels that are not 0 are ignored");
+  list("format", c.format, {},
+       "of frames without a header: gray8, gray16le or grayf32le; empty = files that say it");
+  list("size", c.size, {}, "of frames without a header, e.g. 640x512 [px]");
   list("points", c.points, {},
        "file of points (.csv, .jsonl) that go with the frames, instead of those found in them");
 }

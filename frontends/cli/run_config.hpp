@@ -18,7 +18,8 @@ struct RunConfig {
   double add_noise = 0;  ///< [grey levels]
   double fps = 0;        ///< [1/s]; 0 = the input's own
   std::string mask;
-  std::string points;  ///< a file of points that go with the frames
+  std::string format, size;  ///< of raw frames; empty = inputs have headers
+  std::string points;        ///< a file of points that go with the frames
 };
 void describe(FieldList& list, RunConfig& config);
 

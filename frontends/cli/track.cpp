@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <utility>
@@ -9,6 +11,7 @@
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/cli/frame_job.hpp"
 #include "glint/frontends/cli/track_outputs.hpp"
+#include "glint/frontends/files/tables.hpp"
 
 namespace glint::cli {
 namespace {
@@ -51,21 +54,25 @@ std::string shares(const std::vector<StageTime>& stages) {
 
 void print_summary(const FrameJob& job, const Scheduler& scheduler, double seconds,
                    double frame_rate, const std::vector<std::string>& written) {
+  // Where tracks go to standard output they alone do.
+  const bool piped = std::ranges::find(written, kStandardOutput) != written.end();
+  std::FILE* to = piped ? stderr : stdout;
   const std::int64_t frames = scheduler.frames();
   const double rate = seconds > 0 ? static_cast<double>(frames) / seconds : 0;
-  fmt::print("frames     {} in {:.2f} s: {:.0f} frames/s, {:.3g} x the source's {:.4g}\n", frames,
-             seconds, rate, rate / frame_rate, frame_rate);
-  fmt::print("device     {}, seed {}\n", job.device.description(), job.run().seed);
+  fmt::print(to, "frames     {} in {:.2f} s: {:.0f} frames/s, {:.3g} x the source's {:.4g}\n",
+             frames, seconds, rate, rate / frame_rate, frame_rate);
+  fmt::print(to, "device     {}, seed {}\n", job.device.description(), job.run().seed);
   for (std::size_t i = 0; i < job.trackers.size(); ++i) {
     const auto [confirmed, tentative] = count_tracks(*scheduler.logs()[i]);
-    fmt::print("tracks     {}: {} confirmed, {} never more than tentative\n", job.trackers[i],
+    fmt::print(to, "tracks     {}: {} confirmed, {} never more than tentative\n", job.trackers[i],
                confirmed, tentative);
-    for (const auto& note : scheduler.tracker(i).notes()) fmt::print("estimated  {}\n", note);
+    for (const auto& note : scheduler.tracker(i).notes()) fmt::print(to, "estimated  {}\n", note);
   }
-  for (const auto& note : scheduler.preparer().notes()) fmt::print("estimated  {}\n", note);
-  fmt::print("stages     {}\n", shares(scheduler.stage_times()));
-  fmt::print("written    {}\n", written.empty() ? "nothing; --out tracks.csv keeps the tracks"
-                                                : fmt::format("{}", fmt::join(written, ", ")));
+  for (const auto& note : scheduler.preparer().notes()) fmt::print(to, "estimated  {}\n", note);
+  fmt::print(to, "stages     {}\n", shares(scheduler.stage_times()));
+  fmt::print(to, "written    {}\n",
+             written.empty() ? "nothing; --out tracks.csv keeps the tracks"
+                             : fmt::format("{}", fmt::join(written, ", ")));
 }
 
 /// The first error is the one to report.
@@ -74,6 +81,13 @@ void finish_after_failure(TrackOutputs& outputs) {
     outputs.finish();
   } catch (const std::exception& e) {
     warn(e.what());
+  }
+}
+
+void refuse_sharing(const FrameJob& job, const OutputOptions& outputs) {
+  const auto piped = std::ranges::count(outputs.tracks, kStandardOutput);
+  if (piped > 1 || (piped == 1 && job.trackers.size() > 1)) {
+    throw UsageError("--out -: one tracker's tracks go to standard output; give the others a file");
   }
 }
 
@@ -87,6 +101,7 @@ void track(TrackOptions options) {
     throw UsageError(job.inputs.front() +
                      ": holds points, no frames to draw on; leave --overlay and --picture out");
   }
+  refuse_sharing(job, options.outputs);
   const auto source = open_frames(job);
   Scheduler scheduler = make_scheduler(job);
   for (const std::string& name : job.trackers) {
@@ -139,7 +154,8 @@ void add_track(CLI::App& app) {
   command
       ->add_option("--out", options->outputs.tracks,
                    "tracks as .csv, .jsonl or .mot.txt (confirmed only, with the run's settings "
-                   "beside them in .mot.txt.toml); repeatable")
+                   "beside them in .mot.txt.toml), or - for JSON Lines on standard output as they "
+                   "come; repeatable")
       ->allow_extra_args(false);
   command->add_option("--overlay", options->outputs.overlay,
                       "video of the frames with the tracks, .mp4, .avi or .mkv");
@@ -155,6 +171,8 @@ void add_track(CLI::App& app) {
       "  glint track clip.mp4 --tracker mm-phd --profile L --out tracks.csv\n"
       "  glint track points.csv --tracker imm-pda-ai --out tracks.csv\n"
       "  glint track clip.mp4 --points radar.csv --tracker mm-phd --tracker imm-jpda --out t.csv\n"
+      "  camera | glint track - --format gray16le --size 640x512 --fps 100 --tracker mm-phd --out "
+      "-\n"
       "  glint track clip.mp4 --config tracks.csv      repeats the run that wrote it\n"
       "All settings: glint config TRACKER");
   command->callback([options] { track(*options); });

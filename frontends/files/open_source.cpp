@@ -20,6 +20,7 @@ namespace glint {
 namespace {
 
 constexpr std::string_view kScene = "scene:";
+constexpr std::string_view kStandardInput = "-";
 
 std::unique_ptr<Source> open_picture(const std::string& path, InputKind kind, const Warn& warn) {
 #ifdef GLINT_WITH_OPENCV
@@ -51,6 +52,14 @@ std::unique_ptr<Source> open_scene(std::string_view name, const SourceOptions& o
   return std::make_unique<SceneSource>(std::move(scene), options.seed);
 }
 
+std::unique_ptr<Source> open_raw_input(std::span<const std::string> inputs,
+                                       const SourceOptions& options) {
+  if (inputs.size() > 1) {
+    throw UsageError(inputs[1] + ": raw frames come from one input; cat the files into it");
+  }
+  return open_raw(inputs.front(), *options.raw, options.frame_rate);
+}
+
 }  // namespace
 
 std::optional<std::string_view> scene_name(std::string_view input) {
@@ -64,7 +73,13 @@ std::unique_ptr<Source> open_source(std::span<const std::string> inputs,
   if (const auto name = scene_name(inputs.front()); name && inputs.size() == 1) {
     return open_scene(*name, options);
   }
+  if (options.raw) return open_raw_input(inputs, options);
   for (const std::string& input : inputs) {
+    if (input == kStandardInput) {
+      throw UsageError(
+          "-: frames from standard input need --format and --size, e.g. --format "
+          "gray16le --size 640x512");
+    }
     if (scene_name(input)) throw UsageError(input + ": a scene must be the only input");
   }
   std::vector<std::string> files = expand_inputs(inputs, options.warn);

@@ -162,7 +162,7 @@ void read_lines(const std::string& path, Scans& scans) {
 
 }  // namespace
 
-PointScans read_points(const std::string& path, double interval) {
+PointScans read_point_scans(const std::string& path, double interval) {
   Scans gathered(path, interval);
   if (path.ends_with(".jsonl")) {
     read_lines(path, gathered);

@@ -30,6 +30,6 @@ struct PointScans {
 ///
 /// Throws UsageError if the file cannot be read; std::runtime_error with file, line and remedy if
 /// something is missing, is no number, or goes back in frames or time.
-PointScans read_points(const std::string& path, double interval);
+PointScans read_point_scans(const std::string& path, double interval);
 
 }  // namespace glint

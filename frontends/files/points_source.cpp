@@ -128,14 +128,14 @@ class PairedSource : public Source {
 }  // namespace
 
 std::unique_ptr<Source> open_points(const std::string& path, std::optional<double> frame_rate) {
-  std::vector<PointScan> scans = read_points(path, 1 / frame_rate.value_or(1)).scans;
+  std::vector<PointScan> scans = read_point_scans(path, 1 / frame_rate.value_or(1)).scans;
   const double rate = frame_rate.value_or(rate_of(scans));
   return std::make_unique<PointsSource>(std::move(scans), rate);
 }
 
 std::unique_ptr<Source> with_points(std::unique_ptr<Source> frames, const std::string& path,
                                     const Warn& warn) {
-  PointScans points = read_points(path, 1 / frames->frame_rate());
+  PointScans points = read_point_scans(path, 1 / frames->frame_rate());
   return std::make_unique<PairedSource>(std::move(frames), std::move(points), path, warn);
 }
 

@@ -80,7 +80,10 @@ std::vector<Detection> read_points(const std::string& path) {
 }
 
 std::ofstream open_output(const std::string& path) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  // Appended: a shell that redirects into a file has said itself what becomes of what was there.
+  std::ofstream file = path == kStandardOutput
+                           ? std::ofstream("/dev/stdout", std::ios::binary | std::ios::app)
+                           : std::ofstream(path, std::ios::binary | std::ios::trunc);
   if (!file) throw UsageError(path + ": cannot be written; check the folder and its permissions");
   return file;
 }

@@ -24,7 +24,10 @@ std::vector<TruthPoint> read_truth(const std::string& path);
 /// Needs frame, x, y, amplitude.
 std::vector<Detection> read_points(const std::string& path);
 
-/// A file that is written from start to end. Throws UsageError if it cannot be opened.
+/// The name that stands for standard output.
+inline constexpr std::string_view kStandardOutput = "-";
+/// A file that is written from start to end, or standard output. Throws UsageError if it cannot be
+/// opened.
 std::ofstream open_output(const std::string& path);
 /// Throws std::runtime_error if something could not be written.
 void flush_output(std::ofstream& file, const std::string& path);

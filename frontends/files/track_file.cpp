@@ -22,7 +22,7 @@ TrackFile::TrackFile(std::string path, RunRecord run, bool revised)
       revised_(revised),
       format_(track_format(path_)),
       file_(open_output(path_)),
-      seekable_(fs::is_regular_file(path_)) {
+      seekable_(path_ != kStandardOutput && fs::is_regular_file(path_)) {
   if (format_->bare()) write_sidecar(nullptr);
 }
 

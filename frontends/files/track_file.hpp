@@ -36,7 +36,8 @@ class TrackFormat {
   virtual bool bare() const { return false; }
 };
 
-/// By the end of the name: .csv, .jsonl or .mot.txt (.txt). Throws UsageError for others.
+/// By the end of the name: .csv, .jsonl or .mot.txt (.txt); JSON Lines for standard output, "-".
+/// Throws UsageError for others.
 std::unique_ptr<TrackFormat> track_format(const std::string& path);
 
 /// Tracks on their way into a file: every frame is flushed as it comes, so that a run that breaks

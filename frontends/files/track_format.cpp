@@ -129,7 +129,9 @@ class MotFormat : public TrackFormat {
 
 std::unique_ptr<TrackFormat> track_format(const std::string& path) {
   if (path.ends_with(".csv")) return std::make_unique<CsvFormat>();
-  if (path.ends_with(".jsonl")) return std::make_unique<JsonLinesFormat>();
+  if (path.ends_with(".jsonl") || path == kStandardOutput) {
+    return std::make_unique<JsonLinesFormat>();
+  }
   if (path.ends_with(".txt")) return std::make_unique<MotFormat>();
   throw UsageError(path + ": unknown track format; end the name in .csv, .jsonl or .mot.txt");
 }
