@@ -46,6 +46,7 @@ struct Scheduler::State {
   void deliver(Token& token);
   void run_serial(Source& source, const std::stop_token& stop);
   void run_pipeline(Source& source, const std::stop_token& stop);
+  void advance(Source& source, const std::stop_token& stop);
   void finish();
 
   Device device;
@@ -59,8 +60,8 @@ struct Scheduler::State {
   // Frame f lives in tokens[f % kFramesInFlight]: frames leave in order, so the slot is free again
   // when the pipeline lets frame f + kFramesInFlight in.
   std::array<Token, kFramesInFlight> tokens;
-  bool started = false;
-  std::int64_t read_count = 0, delivered = 0;
+  bool started = false, finished = false;
+  std::int64_t read_count = 0, next_frame = 0, delivered = 0;
   std::atomic<bool> stopping = false;
   std::exception_ptr error;  // of the earliest frame that failed
 };
@@ -70,11 +71,12 @@ Token* Scheduler::State::read(Source& source, const std::stop_token& stop) {
   Token& token = tokens[static_cast<std::size_t>(read_count) % kFramesInFlight];
   token.failed = false;
   token.error = nullptr;
-  token.frame = read_count;
   reading.pass(token, [&] { token.source = source.next(); });
+  if (token.source) next_frame += token.source->skipped;
+  token.frame = next_frame;
   if (!token.failed && !token.source) return nullptr;
   if (token.failed) stopping = true;
-  ++read_count;
+  ++read_count, ++next_frame;
   return &token;
 }
 
@@ -149,6 +151,16 @@ void Scheduler::State::run_pipeline(Source& source, const std::stop_token& stop)
   device.workers().execute([&] { tbb::parallel_pipeline(kFramesInFlight, chain & last); });
 }
 
+void Scheduler::State::advance(Source& source, const std::stop_token& stop) {
+  started = true;
+  for (Token& token : tokens) token.reported.resize(lanes.size());
+  if (device.workers().threads() == 1) {
+    run_serial(source, stop);
+  } else {
+    run_pipeline(source, stop);
+  }
+}
+
 void Scheduler::State::finish() {
   for (Lane& lane : lanes) {
     if (lane.stage.threw()) continue;
@@ -173,17 +185,22 @@ void Scheduler::add(Sink& sink) { state_->sinks.push_back(&sink); }
 void Scheduler::find_points() { state_->finds_points = true; }
 
 std::int64_t Scheduler::run(Source& source, const std::stop_token& stop) {
-  State& s = *state_;
-  if (std::exchange(s.started, true)) throw std::logic_error("a Scheduler runs once: make another");
-  for (Token& token : s.tokens) token.reported.resize(s.lanes.size());
-  if (s.device.workers().threads() == 1) {
-    s.run_serial(source, stop);
-  } else {
-    s.run_pipeline(source, stop);
-  }
-  s.finish();
-  if (s.error) std::rethrow_exception(s.error);
-  return s.delivered;
+  if (state_->started) throw std::logic_error("a Scheduler runs once: make another");
+  state_->advance(source, stop);
+  finish();
+  return state_->delivered;
+}
+
+void Scheduler::advance(Source& source, const std::stop_token& stop) {
+  if (state_->finished) throw std::logic_error("a Scheduler ends once: make another");
+  state_->advance(source, stop);
+  if (state_->error) std::rethrow_exception(state_->error);
+}
+
+void Scheduler::finish() {
+  if (std::exchange(state_->finished, true)) return;
+  state_->finish();
+  if (state_->error) std::rethrow_exception(state_->error);
 }
 
 const std::vector<const TrackLog*>& Scheduler::logs() const { return state_->logs; }

@@ -23,6 +23,7 @@ struct SourceFrame {
   std::optional<std::vector<Point>> points;
   double sensor_x = 0, sensor_y = 0;  ///< where that which saw the points stands [px]
   bool looked = true;  ///< false: it did not look; trackers of points alone pass the frame over
+  std::int64_t skipped = 0;  ///< frames lost since the one before
 };
 
 /// Where frames come from.
@@ -83,6 +84,10 @@ class Scheduler {
   /// those in flight are finished. Calls every tracker's finish() but that of one which threw.
   /// Returns the number of frames delivered. Runs once; throws std::logic_error if called again.
   std::int64_t run(Source& source, const std::stop_token& stop = {});
+  /// The two parts of run(), for a source that may have more later: to the end of what it has now,
+  /// as often as need be; then finish(), once. Each throws what any stage has thrown so far.
+  void advance(Source& source, const std::stop_token& stop = {});
+  void finish();
 
   const std::vector<const TrackLog*>& logs() const;  ///< one a tracker, in their order
   /// Room for that many points in every log, so that reporting them allocates nothing.

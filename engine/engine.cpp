@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/engine.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+namespace glint {
+
+/// Hands out what waits now; a run over it ends when nothing does.
+class Engine::Queue : public Source {
+ public:
+  explicit Queue(Engine& engine) : engine_(engine) {}
+  std::optional<SourceFrame> next() override {
+    const std::scoped_lock lock(engine_.mutex_);
+    if (engine_.waiting_.empty() || engine_.abandoned_) return std::nullopt;
+    Waiting first = std::move(engine_.waiting_.front());
+    engine_.waiting_.pop_front();
+    engine_.at_work_.push_back(first.pushed);
+    engine_.changed_.notify_all();
+    return std::move(first.frame);
+  }
+
+ private:
+  Engine& engine_;
+};
+
+/// Frames come out in the order in which they went in.
+class Engine::Results : public Sink {
+ public:
+  explicit Results(Engine& engine) : engine_(engine) {}
+  void take(const ScanResult& scan) override {
+    EngineResult result{
+        scan.scan.frame, scan.scan.time, 0, {scan.reported.begin(), scan.reported.end()}};
+    {
+      const std::scoped_lock lock(engine_.mutex_);
+      result.latency =
+          std::chrono::duration<double>(Clock::now() - engine_.at_work_.front()).count();
+      engine_.at_work_.pop_front();
+    }
+    if (engine_.settings_.on_result) engine_.settings_.on_result(result);
+    const std::scoped_lock lock(engine_.mutex_);
+    if (!engine_.settings_.on_result) engine_.results_.push_back(std::move(result));
+    ++engine_.settled_;
+    engine_.changed_.notify_all();
+  }
+
+ private:
+  Engine& engine_;
+};
+
+namespace {
+
+/// The pixels row by row without gaps, in memory of their own.
+SourceFrame copy_of(const RawPixels& pixels, double time) {
+  SourceFrame frame;
+  frame.time = time;
+  std::visit(
+      [&]<class T>(const T* data) {
+        const std::ptrdiff_t row = std::ptrdiff_t{pixels.width} * pixels.channels;
+        auto copy = std::make_shared_for_overwrite<T[]>(
+            static_cast<std::size_t>(row * std::ptrdiff_t{pixels.height}));
+        for (int y = 0; y < pixels.height; ++y) {
+          std::copy_n(data + y * pixels.pitch, row, copy.get() + y * row);
+        }
+        frame.pixels = {static_cast<const T*>(copy.get()), pixels.width, pixels.height,
+                        pixels.channels, row};
+        frame.owner = std::move(copy);
+      },
+      pixels.data);
+  return frame;
+}
+
+}  // namespace
+
+Engine::Engine(Scheduler scheduler, EngineSettings settings)
+    : scheduler_(std::move(scheduler)),
+      settings_(std::move(settings)),
+      source_(std::make_unique<Queue>(*this)),
+      sink_(std::make_unique<Results>(*this)) {
+  if (settings_.queue == 0) throw std::invalid_argument("an engine's queue holds at least a frame");
+  scheduler_.add(*sink_);
+  thread_ = std::thread([this] { work(); });
+}
+
+Engine::~Engine() {
+  {
+    const std::scoped_lock lock(mutex_);
+    abandoned_ = true;
+  }
+  close();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Engine::work() {
+  std::exception_ptr error;
+  const auto attempt = [&error](const auto& part) {
+    try {
+      part();
+    } catch (...) {
+      if (!error) error = std::current_exception();
+    }
+  };
+  attempt([&] {
+    while (wait_for_frames()) scheduler_.advance(*source_);
+  });
+  attempt([&] { scheduler_.finish(); });  // of what was tracked before a failure as well
+  const std::scoped_lock lock(mutex_);
+  error_ = error, ended_ = true;
+  waiting_.clear();
+  changed_.notify_all();
+}
+
+/// False at the end.
+bool Engine::wait_for_frames() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return !waiting_.empty() || closed_; });
+  return !waiting_.empty() && !abandoned_;
+}
+
+bool Engine::push(const RawPixels& pixels, double time) {
+  if (pixels.width <= 0 || pixels.height <= 0 || pixels.channels <= 0) {
+    throw std::invalid_argument("a frame must have at least one pixel");
+  }
+  return push(copy_of(pixels, time));
+}
+
+bool Engine::push(SourceFrame frame) {
+  std::unique_lock lock(mutex_);
+  const auto room = [&] { return ended_ || closed_ || waiting_.size() < settings_.queue; };
+  if (settings_.when_full == EngineSettings::WhenFull::wait) changed_.wait(lock, room);
+  rethrow();
+  if (closed_) throw std::logic_error("push() after finish(): make another engine");
+  bool kept = true;
+  while (waiting_.size() >= settings_.queue) {
+    // The frame behind it comes later than one that was not lost would.
+    const std::int64_t lost = waiting_.front().frame.skipped + 1;
+    waiting_.pop_front();
+    (waiting_.empty() ? frame : waiting_.front().frame).skipped += lost;
+    ++dropped_, ++settled_;
+    kept = false;
+  }
+  waiting_.push_back({std::move(frame), Clock::now()});
+  ++pushed_;
+  changed_.notify_all();
+  return kept;
+}
+
+std::optional<EngineResult> Engine::poll() {
+  const std::scoped_lock lock(mutex_);
+  if (results_.empty()) return std::nullopt;
+  EngineResult result = std::move(results_.front());
+  results_.pop_front();
+  return result;
+}
+
+void Engine::drain() {
+  std::unique_lock lock(mutex_);
+  const std::int64_t goal = pushed_;
+  changed_.wait(lock, [&] { return ended_ || settled_ >= goal; });
+  rethrow();
+}
+
+void Engine::finish() {
+  close();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return ended_; });
+  rethrow();
+}
+
+void Engine::close() {
+  const std::scoped_lock lock(mutex_);
+  closed_ = true;
+  changed_.notify_all();
+}
+
+void Engine::rethrow() const {
+  if (error_) std::rethrow_exception(error_);
+}
+
+std::int64_t Engine::pushed() const {
+  const std::scoped_lock lock(mutex_);
+  return pushed_;
+}
+
+std::int64_t Engine::dropped() const {
+  const std::scoped_lock lock(mutex_);
+  return dropped_;
+}
+
+}  // namespace glint

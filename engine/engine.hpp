@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "glint/engine/scheduler.hpp"
+
+namespace glint {
+
+/// The tracks of a scan as they were known when it was done.
+struct EngineResult {
+  std::int64_t frame = 0;  ///< number of the push(), from 0, dropped ones counted
+  double time = 0;         ///< [s]
+  double latency = 0;      ///< from push() to here [s]
+  std::vector<std::vector<TrackPoint>> tracks;  ///< one list a tracker, in their order, by track id
+};
+
+struct EngineSettings {
+  enum class WhenFull {
+    wait,         ///< push() waits until there is room: every frame is tracked
+    drop_oldest,  ///< the frame that has waited longest is dropped: what is tracked is recent
+  };
+  std::size_t queue = 8;  ///< frames that may wait, at least 1
+  WhenFull when_full = WhenFull::wait;
+  /// Gets every result, in order, one at a time, on a thread of the engine; it must not call the
+  /// engine. What it throws ends the engine. Without it results wait for poll(), however many.
+  std::function<void(const EngineResult&)> on_result;
+};
+
+/// Trackers that are fed frame by frame, for programs that have frames rather than a Source. Frames
+/// are tracked on the device's threads while push() returns; engines made with copies of one Device
+/// share its threads. What is tracked is a function of the frames, their times and which of them
+/// were dropped. Every member may be called from any thread.
+class Engine {
+ public:
+  /// `scheduler` has its trackers; sinks may be added to it before.
+  explicit Engine(Scheduler scheduler, EngineSettings settings = {});
+  /// Frames that still wait are not tracked; those at work are finished.
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Copies the frame's pixels and queues it; `time` in [s]. Returns whether all frames found room:
+  /// false if one was dropped for it. Throws std::logic_error after finish(), std::invalid_argument
+  /// for pixels without size, and what ended the engine if something did.
+  bool push(const RawPixels& pixels, double time);
+  /// The same without a copy: `frame.owner` is let go of, on any thread, once the pixels were read.
+  /// Frames that hold points, alone or beside pixels, come in here too.
+  bool push(SourceFrame frame);
+
+  /// The next result, if there is one by now.
+  std::optional<EngineResult> poll();
+  /// Waits until every frame that was pushed is tracked. Throws what ended the engine.
+  void drain();
+  /// Drains, then lets the trackers say what they still hold; the logs are whole after that.
+  /// Throws what ended the engine. A second call does nothing.
+  void finish();
+
+  /// Tracks and notes; not to be looked into between a push() and the drain() or finish() after it.
+  const Scheduler& scheduler() const { return scheduler_; }
+  std::int64_t pushed() const;
+  std::int64_t dropped() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Waiting {
+    SourceFrame frame;
+    Clock::time_point pushed;
+  };
+  class Queue;
+  class Results;
+
+  void work();
+  bool wait_for_frames();
+  void close();
+  void rethrow() const;
+
+  Scheduler scheduler_;
+  EngineSettings settings_;
+  std::unique_ptr<Source> source_;
+  std::unique_ptr<Sink> sink_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Waiting> waiting_;
+  std::deque<Clock::time_point> at_work_;  // when their frames were pushed
+  std::deque<EngineResult> results_;
+  std::int64_t pushed_ = 0, dropped_ = 0, settled_ = 0;  // settled_: tracked or dropped
+  bool closed_ = false, abandoned_ = false, ended_ = false;
+  std::exception_ptr error_;
+  std::thread thread_;  // the last: it uses all of the above
+};
+
+}  // namespace glint
