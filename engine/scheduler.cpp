@@ -61,7 +61,7 @@ struct Scheduler::State {
   // when the pipeline lets frame f + kFramesInFlight in.
   std::array<Token, kFramesInFlight> tokens;
   bool started = false, finished = false;
-  std::int64_t read_count = 0, next_frame = 0, delivered = 0;
+  std::int64_t read_count = 0, next_frame = 0, delivered = 0, kept = 0;
   std::atomic<bool> stopping = false;
   std::exception_ptr error;  // of the earliest frame that failed
 };
@@ -108,6 +108,7 @@ void Scheduler::State::track(std::size_t i, Token& token) {
       lane.tracker->step(token.scan, lane.log);
     }
     lane.log.at(token.frame, token.reported[i]);
+    if (kept > 0) lane.log.forget(token.frame - kept + 1);
   });
   if (token.failed) stopping = true;
 }
@@ -204,6 +205,8 @@ void Scheduler::finish() {
 }
 
 const std::vector<const TrackLog*>& Scheduler::logs() const { return state_->logs; }
+
+void Scheduler::keep(std::int64_t frames) { state_->kept = frames; }
 
 void Scheduler::reserve(std::size_t points) {
   for (Lane& lane : state_->lanes) lane.log.reserve(points);

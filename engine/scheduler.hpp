@@ -90,6 +90,9 @@ class Scheduler {
   void finish();
 
   const std::vector<const TrackLog*>& logs() const;  ///< one a tracker, in their order
+  /// Logs hold the last `frames` frames alone, for streams without an end; late corrections of
+  /// earlier ones are lost. 0, the default: all.
+  void keep(std::int64_t frames);
   /// Room for that many points in every log, so that reporting them allocates nothing.
   void reserve(std::size_t points);
   const Tracker& tracker(std::size_t i) const;

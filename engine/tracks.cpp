@@ -58,7 +58,18 @@ TrackTable::Place TrackTable::find(const FrameChain& chain, std::int64_t track_i
   return {place.before, found ? place.node : kNone};
 }
 
+std::size_t TrackTable::take_node(const TrackPoint& point) {
+  if (free_ == kNone) {
+    nodes_.push_back({point, kNone});
+    return nodes_.size() - 1;
+  }
+  const std::size_t node = std::exchange(free_, nodes_[free_].next);
+  nodes_[node] = {point, kNone};
+  return node;
+}
+
 void TrackTable::put(const TrackPoint& point) {
+  if (point.frame < forgotten_) return;
   const std::size_t i = lower_bound(point.frame);
   if (i == frames_.size() || frames_[i].frame != point.frame) {
     frames_.insert(frames_.begin() + static_cast<std::ptrdiff_t>(i), FrameChain{point.frame});
@@ -68,8 +79,7 @@ void TrackTable::put(const TrackPoint& point) {
     nodes_[place.node].point = point;
     return;
   }
-  const std::size_t node = nodes_.size();
-  nodes_.push_back({point, kNone});
+  const std::size_t node = take_node(point);
   std::size_t& link = link_after(frames_[i], place.before);
   nodes_[node].next = link;
   link = node;
@@ -82,7 +92,21 @@ void TrackTable::remove(std::int64_t track_id, std::int64_t frame) {
     if (place.node == kNone) continue;
     link_after(frames_[i], place.before) = nodes_[place.node].next;
     if (frames_[i].last == place.node) frames_[i].last = place.before;
+    free_node(place.node);
   }
+}
+
+void TrackTable::forget(std::int64_t frame) {
+  forgotten_ = std::max(forgotten_, frame);
+  const std::size_t end = lower_bound(frame);
+  for (std::size_t i = 0; i < end; ++i) {
+    for (std::size_t n = frames_[i].first; n != kNone;) {
+      const std::size_t next = nodes_[n].next;
+      free_node(n);
+      n = next;
+    }
+  }
+  frames_.erase(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
 void TrackTable::confirm(std::int64_t track_id, std::int64_t frame) {

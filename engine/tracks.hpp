@@ -29,7 +29,7 @@ struct TrackPoint {
 
 /// Track points by frame, then by track id. Points stay where they were put and each frame chains
 /// its own by index, so that adding one, early or late, moves no other and allocates only as the
-/// table grows.
+/// table grows; the room of removed and forgotten ones is used again.
 class TrackTable {
  public:
   void reserve(std::size_t points);
@@ -37,6 +37,8 @@ class TrackTable {
   void put(const TrackPoint& point);
   /// Removes the track's points from `frame` on.
   void remove(std::int64_t track_id, std::int64_t frame);
+  /// Removes the points before `frame`, and keeps none that come there later.
+  void forget(std::int64_t frame);
   /// Tentative points of the track from `frame` on become confirmed.
   void confirm(std::int64_t track_id, std::int64_t frame);
   /// Calls f(point) for the points of `frame`, by track id.
@@ -78,8 +80,13 @@ class TrackTable {
     return before == kNone ? chain.first : nodes_[before].next;
   }
 
+  std::size_t take_node(const TrackPoint& point);
+  void free_node(std::size_t node) { nodes_[node].next = std::exchange(free_, node); }
+
   std::vector<FrameChain> frames_;  // by frame
-  std::vector<Node> nodes_;         // in the order of their coming
+  std::vector<Node> nodes_;
+  std::size_t free_ = kNone;  // chain of nodes that hold no point
+  std::int64_t forgotten_ = std::numeric_limits<std::int64_t>::min();
 };
 
 /// All that a tracker has said: per frame and track, online and as revised later. Order is by
@@ -101,6 +108,12 @@ class TrackLog {
   void confirm(std::int64_t track_id, std::int64_t frame) { revised_.confirm(track_id, frame); }
   /// Removes the track's points from `frame` on in the revised record.
   void drop(std::int64_t track_id, std::int64_t frame) { revised_.remove(track_id, frame); }
+
+  /// Removes what was said of the frames before `frame`; what is said of them later is not kept.
+  void forget(std::int64_t frame) {
+    online_.forget(frame);
+    revised_.forget(frame);
+  }
 
   std::vector<TrackPoint> online() const;   ///< as reported at the time
   std::vector<TrackPoint> revised() const;  ///< with all later corrections

@@ -56,6 +56,9 @@ void describe(FieldList& list, RunConfig& c) {
   list("format", c.format, {},
        "of frames without a header: gray8, gray16le or grayf32le; empty = files that say it");
   list("size", c.size, {}, "of frames without a header, e.g. 640x512 [px]");
+  list("keep", c.keep, 0, kMax, "frames",
+       "of tracks that are held in memory until the end, for late corrections; 0 = all: set it for "
+       "streams without an end");
   list("points", c.points, {},
        "file of points (.csv, .jsonl) that go with the frames, instead of those found in them");
 }

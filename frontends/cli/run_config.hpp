@@ -19,6 +19,7 @@ struct RunConfig {
   double fps = 0;        ///< [1/s]; 0 = the input's own
   std::string mask;
   std::string format, size;  ///< of raw frames; empty = inputs have headers
+  int keep = 0;              ///< [frames]; 0 = all
   std::string points;        ///< a file of points that go with the frames
 };
 void describe(FieldList& list, RunConfig& config);

@@ -110,6 +110,7 @@ void track(TrackOptions options) {
         find_tracker(name).make(section, job.device, static_cast<std::uint64_t>(job.run().seed)),
         name);
   }
+  scheduler.keep(job.run().keep);
   TrackOutputs outputs(options.outputs, job, source->frame_rate(), scheduler);
   Interrupt interrupt;
   scheduler.add(outputs);

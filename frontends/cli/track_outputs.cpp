@@ -36,7 +36,7 @@ std::unique_ptr<ClosingSink> open_picture(const std::string& path) {
 
 TrackOutputs::TrackOutputs(const OutputOptions& options, const FrameJob& job, double frame_rate,
                            const Scheduler& scheduler)
-    : scheduler_(scheduler) {
+    : scheduler_(scheduler), keep_(job.run().keep) {
   for (const std::string& path : options.tracks) {
     for (std::size_t i = 0; i < job.trackers.size(); ++i) {
       const std::string& tracker = job.trackers[i];
@@ -53,6 +53,7 @@ void TrackOutputs::take(const ScanResult& result) {
   for (Track& track : tracks_) {
     track.file.write(result.reported[track.tracker],
                      scheduler_.logs()[track.tracker]->mode_names());
+    if (keep_ > 0) track.file.forget(result.scan.frame - keep_ + 1);
   }
   for (const auto& picture : pictures_) picture->take(result);
 }

@@ -36,6 +36,7 @@ class TrackOutputs : public Sink {
     TrackFile file;
   };
   const Scheduler& scheduler_;
+  std::int64_t keep_;  // frames; 0 = all
   std::vector<Track> tracks_;
   std::vector<std::unique_ptr<ClosingSink>> pictures_;
 };

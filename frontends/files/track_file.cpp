@@ -46,6 +46,14 @@ void TrackFile::write(std::span<const TrackPoint> points, const std::vector<std:
   flush_output(file_, path_);
 }
 
+void TrackFile::forget(std::int64_t frame) {
+  const auto kept =
+      std::ranges::lower_bound(written_, frame, {}, [](const auto& key) { return key.first; });
+  // By half, so that on the whole each is moved once.
+  if (2 * (kept - written_.begin()) < std::ssize(written_)) return;
+  written_.erase(written_.begin(), kept);
+}
+
 void TrackFile::close(const TrackLog& log, const std::vector<std::string>& estimated) {
   if (revised_) {
     write_revised(log, estimated);

@@ -50,6 +50,8 @@ class TrackFile {
   TrackFile(std::string path, RunRecord run, bool revised);
   /// `modes` must be the same in every call. Throws std::runtime_error if the disk is full.
   void write(std::span<const TrackPoint> points, const std::vector<std::string>& modes);
+  /// No more is reported of the frames before `frame`: they need not be remembered.
+  void forget(std::int64_t frame);
   /// Adds what was reported late and what was estimated. Throws as write() does.
   void close(const TrackLog& log, const std::vector<std::string>& estimated);
   /// All files written.

@@ -105,6 +105,26 @@ TEST_P(WarmTracker, AllocatesNothing) {
   EXPECT_FALSE(log.online().empty());
 }
 
+// However long the stream: the room of what is forgotten serves what comes.
+TEST(Allocation, NoneInALogThatForgets) {
+  TrackLog log;
+  std::size_t before = 0;
+  for (std::int64_t frame = 0; frame < 20000; ++frame) {
+    if (frame == 200) before = allocations;
+    TrackPoint p;
+    for (p.track_id = frame % 7; p.track_id < 20; ++p.track_id) {
+      p.frame = frame;
+      log.report(p);
+      p.frame = frame - 3;
+      log.revise(p);
+    }
+    if (frame % 11 == 0) log.drop(15, frame - 5);
+    log.forget(frame - 50);
+  }
+  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_EQ(log.online().front().frame, 19949);
+}
+
 // Remembers the count as frames go by.
 class Counter : public Sink {
  public:

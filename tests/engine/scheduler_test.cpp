@@ -124,5 +124,17 @@ TEST_P(SchedulerTest, RunsOnce) {
   EXPECT_THROW(scheduler.run(source), std::logic_error);
 }
 
+TEST_P(SchedulerTest, KeepsTheLastFramesAloneIfTold) {
+  FakeSource source(30);
+  scheduler.add(std::make_unique<FakeTracker>(2));
+  scheduler.add(sink);
+  scheduler.keep(5);
+  scheduler.run(source);
+  EXPECT_EQ(sink.counts, std::vector<std::size_t>(30, 2));
+  const auto kept = scheduler.logs()[0]->revised();
+  ASSERT_EQ(kept.size(), 10u);
+  EXPECT_EQ(kept.front().frame, 25);
+}
+
 }  // namespace
 }  // namespace glint::test

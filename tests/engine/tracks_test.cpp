@@ -134,18 +134,24 @@ TEST(TrackLog, AtGivesTheOnlinePointsOfOneFrame) {
 // Random calls against the plainest record there is: a map.
 TEST(TrackLog, AgreesWithAMap) {
   TrackLog log;
+  std::int64_t forgotten = 0;
   std::map<FrameAndTrack, double> online, revised;
   for (std::uint32_t call = 0; call < 3000; ++call) {
     const auto random = [&](std::uint32_t purpose, std::uint32_t below) {
       return static_cast<std::int64_t>((call * 2654435761u ^ purpose * 40503u) % 7919u % below);
     };
     const std::int64_t frame = random(1, 40), id = random(2, 9);
+    if (call % 400 == 399) {
+      log.forget(++forgotten);
+      const auto gone = [&](const auto& entry) { return entry.first.first < forgotten; };
+      std::erase_if(online, gone), std::erase_if(revised, gone);
+    }
     if (const auto kind = random(3, 10); kind < 6) {
       log.report(point(frame, id, call));
-      online[{frame, id}] = revised[{frame, id}] = call;
+      if (frame >= forgotten) online[{frame, id}] = revised[{frame, id}] = call;
     } else if (kind < 9) {
       log.revise(point(frame, id, call));
-      revised[{frame, id}] = call;
+      if (frame >= forgotten) revised[{frame, id}] = call;
     } else {
       log.drop(id, frame);
       std::erase_if(revised, [&](const auto& entry) {

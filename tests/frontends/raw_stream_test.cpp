@@ -169,6 +169,17 @@ TEST(RawStream, FilesAreReadTooAndNothingIsAnEmptyStream) {
   EXPECT_FALSE(open_raw(folder.write("empty.raw", ""), raw_format("gray8", "48x32"))->next());
 }
 
+TEST(RawStream, AShortMemoryWritesTheSameTracks) {
+  const Folder folder;
+  const std::string raw = folder.write("clip.raw", clip<std::uint8_t>());
+  const std::string track = kTrack + "--format gray8 --out - < " + raw;
+  const auto whole = test::glint(folder, track),
+             brief = test::glint(folder, track + " --set keep=3");
+  ASSERT_EQ(brief.code, 0) << brief.err;
+  EXPECT_FALSE(points_in(whole.out).empty());
+  EXPECT_EQ(points_in(brief.out), points_in(whole.out));
+}
+
 TEST(RawStream, MistakesAreNamed) {
   const Folder folder;
   const auto refusal = [](const char* pixel, const char* size) {
