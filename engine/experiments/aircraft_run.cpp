@@ -32,14 +32,16 @@ Scan scan_of(const Scene& scene, std::uint64_t seed, int frame, const Device& de
 }
 
 template <class T, class Config>
-AircraftRun run(int scenario, const Config& config, std::uint64_t seed) {
+AircraftRun run(int scenario, const Config& config, std::uint64_t seed, AircraftStart start) {
   AircraftScene settings;
   settings.scenario = scenario;
   settings.variant = static_cast<int>(seed);
   const Scene scene = make_scene(settings);
   const Device device = Device::tbb(1);
   T tracker(config, device, seed);
-  const TruthPoint first = truth_at(scene, 0)[0], second = truth_at(scene, kStride)[0];
+  const TruthPoint first = truth_at(scene, 0)[0];
+  const TruthPoint second =
+      start == AircraftStart::two_scans ? truth_at(scene, kStride)[0] : first;  // else at rest
   tracker.start(first.x, first.y, (second.x - first.x) / kStride, (second.y - first.y) / kStride);
   TrackLog log;
   double hit = 0, distance = 0, seen = 0;
@@ -58,12 +60,14 @@ AircraftRun run(int scenario, const Config& config, std::uint64_t seed) {
 
 }  // namespace
 
-AircraftRun run_aircraft(int scenario, const HPmhtConfig& config, std::uint64_t seed) {
-  return run<HPmht>(scenario, config, seed);
+AircraftRun run_aircraft(int scenario, const HPmhtConfig& config, std::uint64_t seed,
+                         AircraftStart start) {
+  return run<HPmht>(scenario, config, seed, start);
 }
 
-AircraftRun run_aircraft(int scenario, const ImmPdaAiConfig& config, std::uint64_t seed) {
-  return run<ImmPdaAi>(scenario, config, seed);
+AircraftRun run_aircraft(int scenario, const ImmPdaAiConfig& config, std::uint64_t seed,
+                         AircraftStart start) {
+  return run<ImmPdaAi>(scenario, config, seed, start);
 }
 
 }  // namespace glint

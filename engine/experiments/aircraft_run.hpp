@@ -13,8 +13,14 @@ struct AircraftRun {
   double deviation = 0;  ///< mean over the scans with an estimate [px]
 };
 
+/// What a tracker is told of the target at the first scan: its place and, if it had two scans to
+/// start from, its velocity.
+enum class AircraftStart { two_scans, one_scan };
+
 /// One thread. The seed also chooses the variant of the scene.
-AircraftRun run_aircraft(int scenario, const HPmhtConfig& config, std::uint64_t seed);
-AircraftRun run_aircraft(int scenario, const ImmPdaAiConfig& config, std::uint64_t seed);
+AircraftRun run_aircraft(int scenario, const HPmhtConfig& config, std::uint64_t seed,
+                         AircraftStart start = AircraftStart::two_scans);
+AircraftRun run_aircraft(int scenario, const ImmPdaAiConfig& config, std::uint64_t seed,
+                         AircraftStart start = AircraftStart::two_scans);
 
 }  // namespace glint

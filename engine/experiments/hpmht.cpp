@@ -48,8 +48,9 @@ ImmPdaAiConfig imm_pda_ai(const char* threshold, double scale) {
 }
 
 template <class Config>
-std::function<AircraftRun(std::uint64_t)> runner(int scenario, Config config) {
-  return [=](std::uint64_t seed) { return run_aircraft(scenario, config, seed); };
+std::function<AircraftRun(std::uint64_t)> runner(int scenario, Config config,
+                                                 AircraftStart start = AircraftStart::two_scans) {
+  return [=](std::uint64_t seed) { return run_aircraft(scenario, config, seed, start); };
 }
 
 std::vector<double> column(const std::vector<AircraftRun>& runs, double AircraftRun::*value) {
@@ -130,6 +131,10 @@ ExperimentResult run_hpmht_table_3(const ExperimentOptions& options, Workers& wo
       const std::string at = low ? " at .9 I_Th" : " at 1.1 I_Th";
       cases.push_back(
           {title("h-pmht", s) + at, s, runner(s, keep), low ? line.h_pmht_low : line.h_pmht_high});
+      // "21 scans, one for initialization" tells nothing of the velocity.
+      cases.push_back({title("h-pmht", s) + at + ", at rest first", s,
+                       runner(s, keep, AircraftStart::one_scan),
+                       low ? line.h_pmht_low : line.h_pmht_high});
       cases.push_back({title("imm-pda-ai", s) + at, s, runner(s, imm_pda_ai("displayed", scale)),
                        low ? line.imm_pda_low : line.imm_pda_high});
     }

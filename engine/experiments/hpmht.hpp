@@ -10,7 +10,8 @@ namespace glint {
 
 /// Table 2: h-pmht beside imm-pda-ai in all seven scenarios.
 ExperimentResult run_hpmht_table_2(const ExperimentOptions& options, Workers& workers);
-/// Table 3: both at .9 and 1.1 of the threshold (23), cells kept as they are above it.
+/// Table 3: both at .9 and 1.1 of the threshold (23), cells kept as they are above it; h-pmht also
+/// from the first position alone, the target thought at rest.
 ExperimentResult run_hpmht_table_3(const ExperimentOptions& options, Workers& workers);
 
 }  // namespace glint

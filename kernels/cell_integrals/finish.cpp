@@ -59,9 +59,10 @@ void fill_mixture(const CellIntegrals::Args& args, const Totals& totals, double 
   for (const TargetSums& s : args.sums) counts += s.count;
   // Every expected measurement belongs to a target or to the background.
   const double expected = args.total.norm + totals.missing_weight * totals.missing;
-  const double log_flat = std::log(args.background / cells_of(args));
-  *args.mixture = {std::max(0.0, expected - counts), totals.shown,
-                   args.log_likelihood ? args.total.norm * log_flat + log_ratio_sum : 0};
+  *args.mixture = {std::max(0.0, expected - counts), totals.shown, 0};
+  if (!args.log_likelihood) return;
+  args.mixture->log_likelihood =
+      args.total.norm * std::log(args.background / cells_of(args)) + log_ratio_sum;
 }
 
 }  // namespace glint::cell_integrals

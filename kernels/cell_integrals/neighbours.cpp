@@ -14,7 +14,7 @@ void Grid::sort(const std::vector<LaneTarget>& targets, int width, int height,
     return static_cast<std::size_t>((width >> shift_) + 1) *
            static_cast<std::size_t>((height >> shift_) + 1);
   };
-  for (shift_ = 5; (1 << shift_) < side || squares() > 4 * targets.size() + 16;) ++shift_;
+  for (shift_ = 5; (1 << shift_) < side || squares() > 4 * targets.size() + 1;) ++shift_;
   columns_ = (width >> shift_) + 1;
   // Counting sort: start_[s + 2] counts square s, start_[s + 1] is the place of its next target.
   start_.assign(squares() + 2, 0);
