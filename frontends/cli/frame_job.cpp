@@ -2,11 +2,11 @@
 #include "glint/frontends/cli/frame_job.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/cli/config_file.hpp"
 #include "glint/frontends/config/profiles.hpp"
 #include "glint/frontends/config/settings.hpp"
 #include "glint/frontends/files/noisy_source.hpp"
@@ -16,22 +16,6 @@
 
 namespace glint::cli {
 namespace {
-
-std::vector<std::string> words(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> list;
-  for (std::string word; stream >> word;) list.push_back(word);
-  return list;
-}
-
-/// Two of one name would share their settings and write over each other's tracks.
-void refuse_twice(const std::vector<std::string>& trackers) {
-  for (auto t = trackers.begin(); t != trackers.end(); ++t) {
-    if (std::find(trackers.begin(), t, *t) != t) {
-      throw UsageError("tracker " + *t + " is given twice; name each once");
-    }
-  }
-}
 
 /// A setting that decides which sections there are must come before those that stand in them.
 bool sets_tracker(const std::string& assignment) {
@@ -197,8 +181,7 @@ FrameJob settle(const FrameOptions& options, const std::vector<std::string>& mor
     if (sets_tracker(set)) apply_set(set, all);
   }
   const ConfigSection run = section_named(all, "run");
-  std::vector<std::string> trackers = words(run.as<RunConfig>().tracker);
-  refuse_twice(trackers);
+  std::vector<std::string> trackers = trackers_of(run.as<RunConfig>());
   auto used = used_sections(all, trackers, options.inputs, more);
   for (const auto& set : options.sets) apply_set(set, used);
   return {options.inputs, std::move(trackers), std::move(used), make_device(run.as<RunConfig>()),

@@ -104,12 +104,7 @@ void track(TrackOptions options) {
   refuse_sharing(job, options.outputs);
   const auto source = open_frames(job);
   Scheduler scheduler = make_scheduler(job);
-  for (const std::string& name : job.trackers) {
-    const ConfigSection section = section_named(job.sections, "trackers." + name);
-    scheduler.add(
-        find_tracker(name).make(section, job.device, static_cast<std::uint64_t>(job.run().seed)),
-        name);
-  }
+  add_trackers(scheduler, job.sections, job.device);
   scheduler.keep(job.run().keep);
   TrackOutputs outputs(options.outputs, job, source->frame_rate(), scheduler);
   Interrupt interrupt;

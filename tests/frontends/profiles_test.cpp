@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "cli.hpp"
-#include "glint/frontends/cli/run_config.hpp"
+#include "glint/frontends/config/run_config.hpp"
 
 namespace glint::test {
 namespace {
 
 TEST(Profiles, EachFitsTheSettingsThereAre) {
   for (const Profile& profile : all_profiles()) {
-    auto sections = cli::all_sections();
+    auto sections = all_sections();
     EXPECT_NO_THROW(apply_profile(profile.name, sections)) << profile.name;
   }
 }

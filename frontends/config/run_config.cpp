@@ -1,47 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/frontends/cli/run_config.hpp"
+#include "glint/frontends/config/run_config.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "glint/engine/frame_preparer.hpp"
 #include "glint/engine/points.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
-#include "glint/frontends/config/profiles.hpp"
 #include "glint/frontends/config/toml.hpp"
-#include "glint/frontends/files/track_file.hpp"
 #include "glint/frontends/usage_error.hpp"
 
-namespace glint::cli {
-namespace {
-
-/// The configuration in a track file's header; every other line is left empty, so that errors name
-/// the right one.
-std::string config_of_track_file(std::ifstream& file) {
-  std::string text;
-  for (std::string line; std::getline(file, line); text += '\n') {
-    if (line.starts_with('#')) text += line.substr(1);
-  }
-  return text;
-}
-
-/// The configuration in the first line of tracks as JSON lines.
-std::string config_of_json(const std::string& line, const std::string& path) {
-  const auto run = nlohmann::json::parse(line, nullptr, false);
-  const auto config = run.is_object() ? run.find("config") : run.end();
-  if (config == run.end() || !config->is_string()) {
-    throw UsageError(path +
-                     ": its first line holds no configuration of a run; give a .jsonl that "
-                     "glint track wrote, or a TOML file");
-  }
-  return config->get<std::string>();
-}
-
-}  // namespace
+namespace glint {
 
 void describe(FieldList& list, RunConfig& c) {
   constexpr int kMax = std::numeric_limits<int>::max();
@@ -63,6 +35,18 @@ void describe(FieldList& list, RunConfig& c) {
        "file of points (.csv, .jsonl) that go with the frames, instead of those found in them");
 }
 
+std::vector<std::string> trackers_of(const RunConfig& run) {
+  std::istringstream stream(run.tracker);
+  std::vector<std::string> names;
+  for (std::string name; stream >> name;) {
+    if (std::ranges::find(names, name) != names.end()) {
+      throw UsageError("tracker " + name + " is given twice; name each once");
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
 std::vector<ConfigSection> all_sections() {
   std::vector<ConfigSection> sections{ConfigSection::of<RunConfig>("run"),
                                       ConfigSection::of<FramesConfig>("frames"),
@@ -78,25 +62,14 @@ ConfigSection section_named(std::span<const ConfigSection> sections, const std::
   return *found;
 }
 
-void read_config(const std::string& path, std::span<ConfigSection> sections) {
-  if (path.ends_with(".txt") && std::ifstream(sidecar_path(path))) {
-    return read_toml(sidecar_path(path), sections);
+void add_trackers(Scheduler& scheduler, std::span<const ConfigSection> sections,
+                  const Device& device) {
+  const RunConfig run = section_named(sections, "run").as<RunConfig>();
+  for (const std::string& name : trackers_of(run)) {
+    const TrackerEntry& entry = find_tracker(name);
+    const ConfigSection section = section_named(sections, "trackers." + std::string(entry.name));
+    scheduler.add(entry.make(section, device, static_cast<std::uint64_t>(run.seed)), name);
   }
-  std::ifstream file(path);
-  std::string first;
-  std::getline(file, first);
-  if (first.starts_with('{')) return parse_toml(config_of_json(first, path), path, sections);
-  if (!first.starts_with("##")) return read_toml(path, sections);
-  file.seekg(0);
-  parse_toml(config_of_track_file(file), path, sections);
-}
-
-std::string profile_help() {
-  std::string help = "settings that go together, before --config and --set";
-  for (const Profile& profile : all_profiles()) {
-    help += "; " + std::string(profile.name) + ": " + std::string(profile.summary);
-  }
-  return help;
 }
 
 std::string bare_toml(std::span<const ConfigSection> sections) {
@@ -110,4 +83,4 @@ std::string bare_toml(std::span<const ConfigSection> sections) {
   return text;
 }
 
-}  // namespace glint::cli
+}  // namespace glint

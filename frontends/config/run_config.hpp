@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "glint/engine/config.hpp"
+#include "glint/engine/scheduler.hpp"
 
-namespace glint::cli {
+namespace glint {
 
 /// What a run is told besides its inputs and the settings of frames and trackers; the file section
 /// [run]. Options such as --seed are short for --set run.seed=...
@@ -24,6 +25,10 @@ struct RunConfig {
 };
 void describe(FieldList& list, RunConfig& config);
 
+/// Their names. Throws UsageError for one that is given twice: two of one name would share their
+/// settings and write over each other's tracks.
+std::vector<std::string> trackers_of(const RunConfig& run);
+
 /// All sections that a configuration file may have: run, frames, points, every tracker, every
 /// scene.
 std::vector<ConfigSection> all_sections();
@@ -31,14 +36,12 @@ std::vector<ConfigSection> all_sections();
 /// The section of that name. Copies of a section share its settings.
 ConfigSection section_named(std::span<const ConfigSection> sections, const std::string& name);
 
-/// Sets what a file says: TOML, or a track file of any format, whose header or sidecar holds the
-/// configuration of the run that wrote it. Throws as read_toml() does.
-void read_config(const std::string& path, std::span<ConfigSection> sections);
-
-/// What --profile takes: the names, and what each is for.
-std::string profile_help();
+/// Adds the trackers of the section [run], each made of its own section. Throws UsageError for a
+/// name that is none, and what a tracker throws for its settings.
+void add_trackers(Scheduler& scheduler, std::span<const ConfigSection> sections,
+                  const Device& device);
 
 /// Settings as TOML without help texts.
 std::string bare_toml(std::span<const ConfigSection> sections);
 
-}  // namespace glint::cli
+}  // namespace glint

@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/capi/glint.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "glint/engine/engine.hpp"
+#include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/config/profiles.hpp"
+#include "glint/frontends/config/run_config.hpp"
+#include "glint/frontends/config/toml.hpp"
+#include "glint/frontends/usage_error.hpp"
+
+using namespace glint;
+
+struct glint_engine {
+  explicit glint_engine(Scheduler scheduler, const EngineSettings& settings)
+      : engine(std::move(scheduler), settings) {}
+  Engine engine;
+  std::mutex mutex;
+  std::optional<EngineResult> held;  // that did not fit at the last call
+  bool finished = false;
+};
+
+namespace {
+
+thread_local std::string last_error;
+
+/// What a call was given is not right.
+struct BadArgument : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+void require(bool holds, const char* sentence) {
+  if (!holds) throw BadArgument(sentence);
+}
+
+/// Runs work(), which gives a status; nothing is thrown beyond here.
+template <class Work>
+glint_status guarded(const Work& work) noexcept {
+  const auto fail = [](glint_status status, const char* message) {
+    try {
+      last_error = message;
+    } catch (...) {
+      last_error.clear();
+    }
+    return status;
+  };
+  try {
+    return work();
+  } catch (const BadArgument& e) {
+    return fail(GLINT_BAD_ARGUMENT, e.what());
+  } catch (const ConfigError& e) {
+    return fail(GLINT_BAD_CONFIG, e.what());
+  } catch (const UsageError& e) {
+    return fail(GLINT_BAD_CONFIG, e.what());
+  } catch (const std::invalid_argument& e) {
+    return fail(GLINT_FAILED, e.what());
+  } catch (const std::logic_error& e) {
+    return fail(GLINT_BAD_STATE, e.what());
+  } catch (const std::exception& e) {
+    return fail(GLINT_FAILED, e.what());
+  } catch (...) {
+    return fail(GLINT_FAILED, "something that is no std::exception was thrown");
+  }
+}
+
+/// The caller's struct as ours: fields that its header did not have yet keep their defaults.
+template <class S>
+S taken(const S* given, S defaults, const char* what) {
+  require(given != nullptr, what);
+  require(given->struct_size >= sizeof(size_t), "struct_size is 0: use the _INIT macro");
+  std::memcpy(&defaults, given, std::min(given->struct_size, sizeof(S)));
+  return defaults;
+}
+
+void refuse_what_reads_files(const RunConfig& run) {
+  if (run.mask.empty() && run.points.empty() && run.format.empty() && run.add_noise == 0) return;
+  throw UsageError(
+      "run.mask, run.points, run.format and run.add_noise are for the command line; leave them "
+      "out");
+}
+
+Scheduler scheduler_of(const glint_options& options) {
+  std::vector<ConfigSection> sections = all_sections();
+  if (options.profile != nullptr) apply_profile(options.profile, sections);
+  if (options.config != nullptr) parse_toml(options.config, "config", sections);
+  if (options.tracker != nullptr) {
+    apply_set(std::string("run.tracker=") + options.tracker, sections);
+  }
+  const RunConfig run = section_named(sections, "run").as<RunConfig>();
+  refuse_what_reads_files(run);
+  if (trackers_of(run).empty()) {
+    throw UsageError("no tracker is named; set options.tracker, for example to \"mm-phd\"");
+  }
+  const Device device = Device::named(run.device, run.threads);
+  Scheduler scheduler(device,
+                      FramePreparer(section_named(sections, "frames").as<FramesConfig>(), device),
+                      section_named(sections, "points").as<PointsConfig>());
+  scheduler.keep(run.keep);
+  add_trackers(scheduler, sections, device);
+  return scheduler;
+}
+
+std::ptrdiff_t bytes_of(glint_pixel pixel) {
+  switch (pixel) {
+    case GLINT_GRAY8:
+      return 1;
+    case GLINT_GRAY16:
+      return 2;
+    case GLINT_FLOAT32:
+      return 4;
+  }
+  throw BadArgument("pixel must be GLINT_GRAY8, GLINT_GRAY16 or GLINT_FLOAT32");
+}
+
+template <class T>
+decltype(RawPixels::data) as_pixels(const void* data) {
+  return static_cast<const T*>(data);
+}
+
+decltype(RawPixels::data) as_pixels(const void* data, glint_pixel pixel) {
+  if (pixel == GLINT_GRAY8) return as_pixels<std::uint8_t>(data);
+  if (pixel == GLINT_GRAY16) return as_pixels<std::uint16_t>(data);
+  return as_pixels<float>(data);
+}
+
+/// Rows one after the other in aligned memory.
+std::shared_ptr<std::byte[]> rows_of(const glint_frame& frame, std::ptrdiff_t row) {
+  auto copy = std::make_shared_for_overwrite<std::byte[]>(
+      static_cast<std::size_t>(row * std::ptrdiff_t{frame.height}));
+  for (std::int32_t y = 0; y < frame.height; ++y) {
+    std::memcpy(copy.get() + y * row,
+                static_cast<const std::byte*>(frame.data) + y * frame.row_bytes,
+                static_cast<std::size_t>(row));
+  }
+  return copy;
+}
+
+/// Tells the caller when nobody reads the pixels any more, unless they stayed the caller's.
+class Lease {
+ public:
+  Lease(void (*release)(void*), void* user, std::shared_ptr<const void> copy)
+      : release_(release), user_(user), copy_(std::move(copy)) {}
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+  ~Lease() {
+    if (release_ != nullptr) release_(user_);
+  }
+  void keep() { release_ = nullptr; }
+
+ private:
+  void (*release_)(void*);
+  void* user_;
+  std::shared_ptr<const void> copy_;
+};
+
+SourceFrame source_frame(glint_frame frame) {
+  require(frame.data != nullptr, "frame.data is NULL");
+  require(frame.width > 0 && frame.height > 0, "frame.width and frame.height must be above 0");
+  require(frame.channels == 1 || frame.channels == 3 || frame.channels == 4,
+          "frame.channels must be 1 (grey), 3 (BGR) or 4 (BGRA)");
+  const std::ptrdiff_t size = bytes_of(frame.pixel);
+  const std::ptrdiff_t row = size * frame.width * frame.channels;
+  if (frame.row_bytes == 0) frame.row_bytes = row;
+  require(frame.row_bytes >= row, "frame.row_bytes is less than a row of pixels");
+  const bool aligned =
+      frame.row_bytes % size == 0 &&
+      reinterpret_cast<std::uintptr_t>(frame.data) % static_cast<std::uintptr_t>(size) == 0;
+  SourceFrame source;
+  source.time = frame.time;
+  source.pixels = {{}, frame.width, frame.height, frame.channels, row / size};
+  if (frame.release != nullptr && aligned) {
+    source.pixels.data = as_pixels(frame.data, frame.pixel);
+    source.pixels.pitch = frame.row_bytes / size;
+    return source;
+  }
+  std::shared_ptr<std::byte[]> copy = rows_of(frame, row);
+  source.pixels.data = as_pixels(copy.get(), frame.pixel);
+  source.owner = std::move(copy);
+  return source;
+}
+
+glint_track track_of(const TrackPoint& p, std::size_t tracker) {
+  return {p.frame,
+          p.time,
+          p.track_id,
+          static_cast<std::int32_t>(tracker),
+          static_cast<std::int32_t>(p.status),
+          p.x,
+          p.y,
+          p.vx,
+          p.vy,
+          p.intensity,
+          p.existence,
+          p.var_x,
+          p.cov_xy,
+          p.var_y};
+}
+
+/// An array of the caller's, whose elements may be older and shorter than ours.
+class Tracks {
+ public:
+  Tracks(glint_track* first, std::size_t size)
+      : to_(reinterpret_cast<std::byte*>(first)), size_(size) {
+    require(size > 0, "track_size is 0: it must be sizeof(glint_track)");
+  }
+  void put(const TrackPoint& point, std::size_t tracker) {
+    const glint_track track = track_of(point, tracker);
+    std::memcpy(to_, &track, std::min(size_, sizeof(track)));
+    to_ += size_;
+  }
+
+ private:
+  std::byte* to_;
+  std::size_t size_;
+};
+
+glint_status poll(glint_engine& handle, glint_result& given, glint_track* tracks,
+                  std::size_t capacity) {
+  glint_result result = taken(&given, GLINT_RESULT_INIT, "");
+  const std::scoped_lock lock(handle.mutex);
+  if (!handle.held) handle.held = handle.engine.poll();
+  if (!handle.held) return GLINT_NOTHING;
+  result.frame = handle.held->frame, result.time = handle.held->time;
+  result.latency = handle.held->latency, result.tracks = 0;
+  for (const auto& points : handle.held->tracks) result.tracks += points.size();
+  std::memcpy(&given, &result, std::min(given.struct_size, sizeof(result)));
+  if (result.tracks > capacity) {
+    last_error = "the frame has " + std::to_string(result.tracks) +
+                 " tracks, and there is room for " + std::to_string(capacity) +
+                 "; poll again with more";
+    return GLINT_TOO_SMALL;
+  }
+  require(tracks != nullptr || result.tracks == 0, "tracks is NULL");
+  Tracks out(tracks, result.track_size);
+  for (std::size_t i = 0; i < handle.held->tracks.size(); ++i) {
+    for (const TrackPoint& p : handle.held->tracks[i]) out.put(p, i);
+  }
+  handle.held.reset();
+  return GLINT_OK;
+}
+
+}  // namespace
+
+const char* glint_version(void) { return GLINT_VERSION; }
+
+const char* glint_last_error(void) { return last_error.c_str(); }
+
+int glint_has(const char* what) {
+  if (what == nullptr) return 0;
+  const std::string_view asked(what);
+  constexpr std::string_view kTracker = "tracker.", kDevice = "device.";
+  if (asked.starts_with(kTracker)) {
+    return std::ranges::any_of(all_trackers(), [&](const TrackerEntry& t) {
+      return t.name == asked.substr(kTracker.size());
+    });
+  }
+  if (asked.starts_with(kDevice)) {
+    return guarded([&] {
+             Device::named(asked.substr(kDevice.size()));
+             return GLINT_OK;
+           }) == GLINT_OK;
+  }
+  constexpr std::array<std::string_view, 4> kOthers{"pixel.gray8", "pixel.gray16", "pixel.float32",
+                                                    "points"};
+  return std::ranges::find(kOthers, asked) != kOthers.end();
+}
+
+glint_status glint_default_config(char* text, size_t* size) {
+  return guarded([&] {
+    require(size != nullptr, "size is NULL");
+    const std::string toml = write_toml(all_sections());
+    const std::size_t room = text == nullptr ? 0 : *size;
+    *size = toml.size() + 1;
+    if (room < *size) {
+      last_error = "the text has " + std::to_string(*size) + " bytes";
+      return GLINT_TOO_SMALL;
+    }
+    std::memcpy(text, toml.c_str(), *size);
+    return GLINT_OK;
+  });
+}
+
+glint_status glint_create(const glint_options* options, glint_engine** engine) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    *engine = nullptr;
+    const glint_options all = taken(options, GLINT_OPTIONS_INIT, "options is NULL");
+    EngineSettings settings;
+    if (all.queue > 0) settings.queue = all.queue;
+    require(all.when_full == GLINT_WAIT || all.when_full == GLINT_DROP_OLDEST,
+            "when_full must be GLINT_WAIT or GLINT_DROP_OLDEST");
+    if (all.when_full == GLINT_DROP_OLDEST) {
+      settings.when_full = EngineSettings::WhenFull::drop_oldest;
+    }
+    try {
+      *engine = std::make_unique<glint_engine>(scheduler_of(all), settings).release();
+    } catch (const std::invalid_argument& e) {  // of settings that do not go together
+      throw UsageError(e.what());
+    }
+    return GLINT_OK;
+  });
+}
+
+void glint_destroy(glint_engine* engine) { delete engine; }
+
+glint_status glint_push(glint_engine* engine, const glint_frame* frame) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    const glint_frame all = taken(frame, GLINT_FRAME_INIT, "frame is NULL");
+    SourceFrame source = source_frame(all);
+    const auto lease = std::make_shared<Lease>(all.release, all.user, std::move(source.owner));
+    source.owner = lease;
+    try {
+      return engine->engine.push(std::move(source)) ? GLINT_OK : GLINT_DROPPED;
+    } catch (...) {
+      lease->keep();
+      throw;
+    }
+  });
+}
+
+glint_status glint_push_points(glint_engine* engine, const glint_point* points, size_t count,
+                               double time) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    require(points != nullptr || count == 0, "points is NULL");
+    SourceFrame source;
+    source.time = time;
+    source.points.emplace();
+    for (std::size_t i = 0; i < count; ++i) {
+      source.points->push_back({points[i].x, points[i].y, points[i].amplitude});
+    }
+    return engine->engine.push(std::move(source)) ? GLINT_OK : GLINT_DROPPED;
+  });
+}
+
+glint_status glint_poll(glint_engine* engine, glint_result* result, glint_track* tracks,
+                        size_t capacity) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    require(result != nullptr, "result is NULL");
+    return poll(*engine, *result, tracks, capacity);
+  });
+}
+
+glint_status glint_drain(glint_engine* engine) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    engine->engine.drain();
+    return GLINT_OK;
+  });
+}
+
+glint_status glint_finish(glint_engine* engine) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    engine->engine.finish();
+    const std::scoped_lock lock(engine->mutex);
+    engine->finished = true;
+    return GLINT_OK;
+  });
+}
+
+glint_status glint_revised(glint_engine* engine, glint_track* tracks, size_t track_size,
+                           size_t* count) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    require(count != nullptr, "count is NULL");
+    {
+      const std::scoped_lock lock(engine->mutex);
+      if (!engine->finished) throw std::logic_error("call glint_finish() first");
+    }
+    std::vector<std::vector<TrackPoint>> revised;
+    std::size_t needed = 0;
+    for (const TrackLog* log : engine->engine.scheduler().logs()) {
+      needed += revised.emplace_back(log->revised()).size();
+    }
+    const std::size_t room = tracks == nullptr ? 0 : *count;
+    *count = needed;
+    if (room < needed) {
+      last_error = "there are " + std::to_string(needed) + " tracks";
+      return GLINT_TOO_SMALL;
+    }
+    Tracks out(tracks, track_size);
+    for (std::size_t i = 0; i < revised.size(); ++i) {
+      for (const TrackPoint& p : revised[i]) out.put(p, i);
+    }
+    return GLINT_OK;
+  });
+}
+
+glint_status glint_counts(glint_engine* engine, int64_t* pushed, int64_t* dropped) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    if (pushed != nullptr) *pushed = engine->engine.pushed();
+    if (dropped != nullptr) *dropped = engine->engine.dropped();
+    return GLINT_OK;
+  });
+}
