@@ -15,7 +15,7 @@ void Grid::sort(const std::vector<LaneTarget>& targets, int width, int height,
            static_cast<std::size_t>((height >> shift_) + 1);
   };
   for (shift_ = 5; (1 << shift_) < side || squares() > 4 * targets.size() + 1;) ++shift_;
-  columns_ = (width >> shift_) + 1;
+  columns_ = (width >> shift_) + 1, rows_ = (height >> shift_) + 1;
   // Counting sort: start_[s + 2] counts square s, start_[s + 1] is the place of its next target.
   start_.assign(squares() + 2, 0);
   for (const LaneTarget& t : targets) ++start_[square(t.box) + 2];

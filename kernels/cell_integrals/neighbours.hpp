@@ -35,14 +35,25 @@ class Grid {
     }
   }
 
+  /// Sorted targets [first, end) that hold every neighbour of the sorted targets [begin, end).
+  struct Range {
+    std::size_t first, end;
+  };
+  Range around(const std::vector<LaneTarget>& sorted, std::size_t begin, std::size_t end) const {
+    const int top = (sorted[begin].box.y0 >> shift_) - 1;
+    const int bottom = (sorted[end - 1].box.y0 >> shift_) + 1;
+    return {start_[row_start(std::max(0, top))], start_[row_start(std::min(rows_, bottom + 1))]};
+  }
+
  private:
+  std::size_t row_start(int row) const { return square(0, row); }
   std::size_t square(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
   std::size_t square(const Box& box) const { return square(box.x0 >> shift_, box.y0 >> shift_); }
 
-  int shift_ = 5, reach_ = 0, columns_ = 0;
+  int shift_ = 5, reach_ = 0, columns_ = 0, rows_ = 0;
   std::vector<std::uint32_t> start_;  ///< first sorted target of each square
 };
 

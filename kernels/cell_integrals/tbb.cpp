@@ -15,6 +15,8 @@ using Args = CellIntegrals::Args;
 constexpr std::size_t kTargetTile = 64;
 /// Fewer tiles are done before a second thread has woken up for each of the four passes.
 constexpr std::size_t kLeastSharedTiles = 8;
+/// Tiles a round and thread.
+constexpr std::size_t kRoundTiles = 16;
 
 LaneCells lane_cells(FrameView frame, const CellRule& rule) {
   return {.data = frame.data,
@@ -40,7 +42,6 @@ struct TargetTile {
   std::vector<std::uint32_t> isolated, neighbours;
   std::vector<Crowded> crowded;
   std::vector<LaneNeighbour> at_hand;
-  std::vector<float> storage;
   double log_ratio_sum = 0;
 };
 
@@ -51,7 +52,12 @@ struct IntegralsWorkspace::Fast {
   std::vector<TargetProfile> profiles;
   std::vector<PartialSums> partial;
   std::vector<TargetTile> tiles;
+  std::vector<std::vector<float>> profile_storage;  ///< a ring, by tile
   cell_integrals::Grid grid;
+
+  std::vector<float>& storage_of(std::size_t tile) {
+    return profile_storage[tile % profile_storage.size()];
+  }
 };
 IntegralsWorkspace::IntegralsWorkspace() = default;
 IntegralsWorkspace::~IntegralsWorkspace() = default;
@@ -68,7 +74,7 @@ bool fits_registers(const Box& box) {
 
 /// Splits a tile into targets that are alone and others, whose axes are integrated here.
 void survey(const CellIntegralsLanes& lanes, const LaneCells& cells, Space& space, TargetTile& tile,
-            std::size_t begin, std::size_t end) {
+            std::vector<float>& profiles, std::size_t begin, std::size_t end) {
   tile.isolated.clear(), tile.neighbours.clear(), tile.crowded.clear();
   const bool plain = !cells.log_likelihood && !cells.truncate_dark && cells.missing_count == 0;
   std::size_t floats = 0;
@@ -85,8 +91,8 @@ void survey(const CellIntegralsLanes& lanes, const LaneCells& cells, Space& spac
       floats += profile_size(space.targets[k].box);
     }
   }
-  tile.storage.resize(floats);
-  float* storage = tile.storage.data();
+  profiles.resize(floats);
+  float* storage = profiles.data();
   for (const TargetTile::Crowded& c : tile.crowded) {
     space.profiles[c.target] = lanes.profile(space.targets[c.target], storage);
     storage += profile_size(space.targets[c.target].box);
@@ -109,6 +115,40 @@ void sum_tile(const CellIntegralsLanes& lanes, const LaneCells& cells, Space& sp
     lanes.crowded(cells, space.targets[c.target], space.profiles[c.target], tile.at_hand.data(),
                   c.neighbours, is_last ? nullptr : &space.targets[tile.crowded[at + 1].target],
                   space.partial[space.targets[c.target].index], tile.log_ratio_sum);
+  }
+}
+
+/// Tiles [begin, end) that are summed together, and those whose targets may be near theirs.
+struct Round {
+  std::size_t begin, end, near_begin, near_end;
+};
+Round round_at(const Space& space, const Tiles& split, std::size_t begin, std::size_t length) {
+  const std::size_t end = std::min(begin + length, split.tiles());
+  const auto near = space.grid.around(space.targets, split.begin(begin), split.end(end - 1));
+  return {begin, end, near.first / split.size, (near.end + split.size - 1) / split.size};
+}
+
+/// Surveys and sums all tiles, a few at a time: the integrals of their axes, far more than a cache
+/// holds for all targets, are made just before they are used and in memory that is used again.
+template <class ForTiles>
+void sum_in_rounds(const CellIntegralsLanes& lanes, const LaneCells& cells, Space& space,
+                   const Tiles& split, std::size_t length, const ForTiles& for_tiles) {
+  std::size_t at_once = 1;
+  for (std::size_t t = 0; t < split.tiles(); t += length) {
+    const Round round = round_at(space, split, t, length);
+    at_once = std::max(at_once, round.near_end - round.near_begin);
+  }
+  if (space.profile_storage.size() < at_once) space.profile_storage.resize(at_once);
+  std::size_t surveyed = 0;
+  for (std::size_t t = 0; t < split.tiles(); t += length) {
+    const Round round = round_at(space, split, t, length);
+    for_tiles(surveyed, round.near_end, [&](std::size_t i) {
+      survey(lanes, cells, space, space.tiles[i], space.storage_of(i), split.begin(i),
+             split.end(i));
+    });
+    surveyed = std::max(surveyed, round.near_end);
+    for_tiles(round.begin, round.end,
+              [&](std::size_t i) { sum_tile(lanes, cells, space, space.tiles[i]); });
   }
 }
 
@@ -178,21 +218,21 @@ void CellIntegrals::tbb(const Args& args, Workers& workers) {
   LaneCells cells = lane_cells(args.frame, args.rule);
   cells.background = static_cast<float>(args.background / cell_integrals::cells_of(args));
   cells.log_likelihood = args.log_likelihood;
-  const auto for_tiles = [&](const auto& f) {
-    if (split.tiles() >= kLeastSharedTiles) return workers.for_tiles(split.tiles(), f);
-    for (std::size_t t = 0; t < split.tiles(); ++t) f(t);
+  const auto for_tiles = [&](std::size_t begin, std::size_t end, const auto& f) {
+    if (split.tiles() >= kLeastSharedTiles && end > begin + 1) {
+      return workers.for_tiles(end - begin, [&](std::size_t t) { f(begin + t); });
+    }
+    for (std::size_t t = begin; t < end; ++t) f(t);
   };
-  for_tiles([&](std::size_t t) {
+  for_tiles(0, split.tiles(), [&](std::size_t t) {
     lanes.locate(args.targets.data(), split.begin(t), split.end(t), args.reach, args.frame.width,
                  args.frame.height, space.located.data());
   });
   space.grid.sort(space.located, args.frame.width, args.frame.height, space.targets);
-  for_tiles([&](std::size_t t) {
-    survey(lanes, cells, space, space.tiles[t], split.begin(t), split.end(t));
-  });
-  for_tiles([&](std::size_t t) { sum_tile(lanes, cells, space, space.tiles[t]); });
+  const auto threads = static_cast<std::size_t>(workers.threads());
+  sum_in_rounds(lanes, cells, space, split, kRoundTiles * threads, for_tiles);
   const cell_integrals::Totals totals = cell_integrals::totals_of(args, space.partial);
-  for_tiles([&](std::size_t t) {
+  for_tiles(0, split.tiles(), [&](std::size_t t) {
     for (std::size_t k = split.begin(t); k < split.end(t); ++k) {
       args.sums[k] =
           cell_integrals::normalised(args.targets[k], space.partial[k], totals.missing_weight);
