@@ -84,10 +84,11 @@ void isolated(const LaneCells& cells, const LaneTarget* targets, const std::uint
               std::size_t n, PartialSums* sums) {
   constexpr std::size_t kTogether = 8;
   TargetAxes axes[kTogether];
+  for (std::size_t i = 0; i < n && i < kTogether; ++i) fetch_ahead(cells, targets[which[i]]);
   for (std::size_t first = 0; first < n; first += kTogether) {
     const std::size_t end = n - first < kTogether ? n : first + kTogether;
-    for (std::size_t i = first; i < end; ++i) fetch_ahead(cells, targets[which[i]]);
     for (std::size_t i = first; i < end; ++i) {
+      if (i + kTogether < n) fetch_ahead(cells, targets[which[i + kTogether]]);
       const LaneTarget& t = targets[which[i]];
       axes[i - first] = {few_cells(t.left, t.sigma_x, t.box.x1 - t.box.x0),
                          few_cells(t.top, t.sigma_y, t.box.y1 - t.box.y0)};
