@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "glint/bench/harness.hpp"
@@ -20,6 +21,7 @@ inline constexpr int kMinSide = 256;
 struct Options {
   FrameSize size = kReferenceSize;
   bool quick = false;                            ///< fewer samples, no growth over sizes
+  std::optional<Device> egl = {};                ///< kernels: compares this device with the others
   std::function<void(const Result&)> done = {};  ///< called with each suite as it ends
 };
 

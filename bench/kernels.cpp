@@ -10,6 +10,10 @@ std::vector<Result> bench_kernels(const Options& options) {
     results.push_back(measure(suite, budget));
     if (options.done) options.done(results.back());
   };
+  if (options.egl) {
+    run(egl_trials(*options.egl));
+    return results;
+  }
   using FrameSuite = Suite (*)(FrameSize);
   for (const FrameSuite make :
        {pixel_likelihood_float, pixel_likelihood_u16, pixel_likelihood_hits,

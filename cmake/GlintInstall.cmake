@@ -13,7 +13,7 @@ install(TARGETS glint glint_settings EXPORT glintTargets
 foreach(layer kernels engine)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${layer}/
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/glint/${layer}
-    FILES_MATCHING PATTERN "*.hpp" PATTERN "lanes*.hpp" EXCLUDE)
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl" PATTERN "lanes*.hpp" EXCLUDE)
 endforeach()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glint)

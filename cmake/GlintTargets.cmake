@@ -52,3 +52,34 @@ function(glint_kernel name)
   target_sources(glint PRIVATE ${sources})
   glint_lanes(glint ${name} ${dir}/lanes.cpp)
 endfunction()
+
+# glint_gl(NAME [SHADERS files] [PARTS files]): adds kernels/NAME/gl.cpp and embeds its shaders, with
+# what they include put in: NAME.comp as glint::shaders::NAME, or each SHADERS's FILE.comp as
+# glint::shaders::NAME_FILE. They are listed in glint's property GLINT_SHADERS for the tests. PARTS are
+# the included files, from kernels/.
+function(glint_gl name)
+  cmake_parse_arguments(arg "" "" "SHADERS;PARTS" ${ARGN})
+  set(dir ${PROJECT_SOURCE_DIR}/kernels/${name})
+  set(out ${PROJECT_BINARY_DIR}/shaders)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake)
+  list(TRANSFORM arg_PARTS PREPEND ${PROJECT_SOURCE_DIR}/kernels/ OUTPUT_VARIABLE parts)
+  if(NOT arg_SHADERS)
+    set(arg_SHADERS ${name})
+  endif()
+  foreach(file IN LISTS arg_SHADERS)
+    set(shader ${name}_${file})
+    if(file STREQUAL name)
+      set(shader ${name})
+    endif()
+    set(outputs ${out}/${shader}.comp ${out}/glint_shaders/${shader}.hpp)
+    add_custom_command(OUTPUT ${outputs}
+      COMMAND ${CMAKE_COMMAND} -DNAME=${shader} -DINPUT=${dir}/${file}.comp
+        -DROOT=${PROJECT_SOURCE_DIR}/include -DOUT=${out} -P ${script}
+      DEPENDS ${dir}/${file}.comp ${script} ${parts} VERBATIM)
+    add_custom_target(glint_shader_${shader} DEPENDS ${outputs})
+    add_dependencies(glint glint_shader_${shader})
+    set_property(TARGET glint APPEND PROPERTY GLINT_SHADERS ${shader})
+  endforeach()
+  target_sources(glint PRIVATE ${dir}/gl.cpp)
+  target_include_directories(glint PRIVATE ${out})
+endfunction()

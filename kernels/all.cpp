@@ -16,20 +16,28 @@
 #include "glint/kernels/resample/resample.hpp"
 
 namespace glint {
+namespace {
+
+template <Kernel K>
+KernelEntry entry() {
+  return {K::name, &K::trials, EglKernel<K>};
+}
+
+}  // namespace
 
 std::span<const KernelEntry> all_kernels() {
   static const std::array kAll{
       KernelEntry{"prepare_frame", &prepare_frame_trials},
-      KernelEntry{PixelLikelihood::name, &PixelLikelihood::trials},
-      KernelEntry{ParticleLikelihood::name, &ParticleLikelihood::trials},
-      KernelEntry{Propagate::name, &Propagate::trials},
-      KernelEntry{Resample::name, &Resample::trials},
-      KernelEntry{CellWeights::name, &CellWeights::trials},
-      KernelEntry{CellIntegrals::name, &CellIntegrals::trials},
-      KernelEntry{FindPoints::name, &FindPoints::trials},
-      KernelEntry{BirthScores::name, &BirthScores::trials},
-      KernelEntry{DpStage::name, &DpStage::trials},
-      KernelEntry{AddNoise::name, &AddNoise::trials},
+      entry<PixelLikelihood>(),
+      entry<ParticleLikelihood>(),
+      entry<Propagate>(),
+      entry<Resample>(),
+      entry<CellWeights>(),
+      entry<CellIntegrals>(),
+      entry<FindPoints>(),
+      entry<BirthScores>(),
+      entry<DpStage>(),
+      entry<AddNoise>(),
   };
   return kAll;
 }

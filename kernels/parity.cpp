@@ -8,6 +8,9 @@
 #include <limits>
 #include <sstream>
 
+#include "glint/kernels/core/gl_context.hpp"
+#include "glint/kernels/core/gl_queue.hpp"
+
 namespace glint {
 namespace {
 
@@ -54,6 +57,14 @@ std::string sentence(const char* what, const Mismatch& m) {
   return text.str();
 }
 
+/// A context of its own on the same device.
+Device with_small_buffers(const Device& device) {
+  constexpr std::size_t kBytes = std::size_t{540} << 10;
+  Device small = Device::egl(device.context().device().number);
+  small.context().run([](gl::Queue& queue) { queue.limit(kBytes); });
+  return small;
+}
+
 }  // namespace
 
 std::string description(const ParityRow& row) {
@@ -88,8 +99,9 @@ std::vector<ParityRow> check_parity(const KernelEntry& kernel, std::span<const D
   return rows;
 }
 
-std::vector<Device> parity_devices(DeviceKind kind) {
-  if (kind == DeviceKind::serial) return {Device::serial(), Device::serial()};
+std::vector<Device> parity_devices(const Device& device) {
+  if (device.kind() == DeviceKind::serial) return {device, device};
+  if (device.kind() == DeviceKind::egl) return {device, device, with_small_buffers(device)};
   std::vector<Device> devices;
   for (const Isa isa : runnable_isas()) {
     for (const int threads : {1, 2, 3, 8}) devices.push_back(Device::tbb(threads, isa));

@@ -30,9 +30,10 @@ std::string description(const ParityRow& row);
 /// the trial's tolerance of serial, and bitwise equal to the first of them.
 std::vector<ParityRow> check_parity(const KernelEntry& kernel, std::span<const Device> devices);
 
-/// The devices that must agree bit for bit: for tbb 1, 2, 3 and 8 threads on every instruction set
-/// that runs here; two of the reference for serial. Eight threads only run at once while the caller
-/// holds a tbb::global_control that allows them.
-std::vector<Device> parity_devices(DeviceKind kind);
+/// The devices of the same kind that must agree with `device` bit for bit. tbb: 1, 2, 3 and 8
+/// threads on every instruction set that runs here; eight only run at once while the caller holds a
+/// tbb::global_control that allows them. serial: the same twice. egl: the same twice, and once with
+/// buffers so small that problems are cut.
+std::vector<Device> parity_devices(const Device& device);
 
 }  // namespace glint

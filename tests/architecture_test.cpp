@@ -82,6 +82,17 @@ TEST(Architecture, TbbStaysInKernelsAndTheScheduler) {
   expect_none({"frontends", "bench"}, headers, {"frontends/cli/parity.cpp", "bench/baselines/"});
   expect_none({"kernels", "engine"}, {"tbb/global_control", "oneapi/tbb/global_control"});
 }
+TEST(Architecture, OpenGlStaysInTheCoreAndInGlFiles) {
+  const std::vector<std::string_view> headers{"EGL/", "GL/", "glint/kernels/core/gl_",
+                                              "glint_shaders/"};
+  for (const auto& [file, header] : includes_of("kernels")) {
+    if (file.starts_with("kernels/core/") || file.ends_with("/gl.cpp")) continue;
+    if (file == "kernels/parity.cpp") continue;  // makes buffers small
+    EXPECT_FALSE(starts_with_any(header, headers)) << file << " includes " << header;
+  }
+  expect_none({"engine", "frontends", "bench"}, headers);
+  expect_none(kRooms, {"EGL/", "GL/"});
+}
 TEST(Architecture, LibraryNeedsNoFrontEndsPackages) {
   expect_none({"kernels", "engine"}, {"CLI/", "nlohmann", "fmt/", "fitsio", "iostream"});
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "glint/bench/data.hpp"
 #include "glint/bench/kernels/suites.hpp"
@@ -35,6 +36,22 @@ struct Cells {
   AlignedVector<float> log_ratio, updated;
   CellWorkspace workspace;
 };
+
+struct NamedDevice {
+  std::string name;
+  Device device;
+};
+
+/// A case a device: all trials of a kernel.
+void add_trials(Suite& suite, const KernelEntry& kernel, const std::vector<NamedDevice>& devices) {
+  using Trials = std::vector<std::unique_ptr<Trial>>;
+  const auto trials = std::make_shared<Trials>(kernel.trials());
+  for (const auto& [name, device] : devices) {
+    suite.add({std::string(kernel.name) + name, 1, 1, [trials, device = device] {
+                 for (const auto& trial : *trials) trial->run(device);
+               }});
+  }
+}
 
 }  // namespace
 
@@ -88,17 +105,21 @@ Suite find_points_noise(FrameSize size) {
 
 Suite kernel_trials() {
   Suite suite("every kernel's parity trials", "set of trials");
-  using Trials = std::vector<std::unique_ptr<Trial>>;
   for (const KernelEntry& kernel : all_kernels()) {
     const std::string name(kernel.name);
-    const auto trials = std::make_shared<Trials>(kernel.trials());
-    for (const Device& device : {Device::tbb(1), Device::serial()}) {
-      const std::string suffix = device.kind() == DeviceKind::serial ? " serial" : " tbb x1";
-      suite.add({name + suffix, 1, 1, [trials, device] {
-                   for (const auto& trial : *trials) trial->run(device);
-                 }});
-    }
+    add_trials(suite, kernel, {{" tbb x1", Device::tbb(1)}, {" serial", Device::serial()}});
     suite.ratio(name + " of the serial reference, x1", name + " tbb x1", name + " serial");
+  }
+  return suite;
+}
+
+Suite egl_trials(const Device& egl) {
+  Suite suite("parity trials on " + egl.description(), "set of trials");
+  for (const KernelEntry& kernel : all_kernels()) {
+    if (!kernel.on_egl) continue;
+    const std::string name(kernel.name);
+    add_trials(suite, kernel, {{" egl", egl}, {" tbb", Device::tbb()}});
+    suite.ratio(name + " of tbb", name + " egl", name + " tbb");
   }
   return suite;
 }

@@ -27,5 +27,7 @@ Suite cell_integrals_many(FrameSize size);
 Suite cell_integrals_growth();
 /// Every kernel's parity trials, so that a new kernel shows here before it has a suite.
 Suite kernel_trials();
+/// The same trials of the kernels that an egl device runs itself, on it and on tbb.
+Suite egl_trials(const Device& egl);
 
 }  // namespace glint::bench

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "glint/frontends/cli/commands.hpp"
@@ -21,6 +23,7 @@ using bench::Timing;
 struct Request {
   std::string what = "kernels";
   std::string size = "4096x4096";
+  std::string device = "tbb";
   bool json = false, quick = false;
 };
 
@@ -88,8 +91,21 @@ nlohmann::json to_json(const Result& result) {
   return {{"name", result.name}, {"unit", result.unit}, {"cases", cases}, {"figures", figures}};
 }
 
+std::optional<Device> egl_device(const Request& request) {
+  if (request.device == "tbb" || request.device == "auto") return std::nullopt;
+  if (!request.device.starts_with("egl") || request.what != "kernels") {
+    throw UsageError("--device is tbb, or egl or egl:N with kernels, got " + request.device);
+  }
+  try {
+    return Device::named(request.device);
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(e.what());
+  }
+}
+
 void run(const Request& request) {
   bench::Options options;
+  options.egl = egl_device(request);
   options.size = parse_size(request.size);
   options.quick = request.quick;
   if (!request.json) {
@@ -119,11 +135,14 @@ void add_bench(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--size", request->size, "frame size, WIDTHxHEIGHT [px]")
       ->capture_default_str();
+  command->add_option("--device", request->device, "tbb; kernels also on egl or egl:N, beside tbb")
+      ->capture_default_str();
   command->add_flag("--quick", request->quick, "fewer samples, no growth over sizes");
   command->add_flag("--json", request->json, "print JSON instead of tables");
   command->footer(
       "Examples:\n"
       "  glint bench kernels\n"
+      "  glint bench kernels --device egl\n"
       "  glint bench frames --size 4096x4096 --json");
   command->callback([request] { run(*request); });
 }

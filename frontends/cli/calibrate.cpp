@@ -108,6 +108,9 @@ void calibrate(Request request) {
   if (points != job.sections.end()) options.points = points->as<PointsConfig>();
   options.seed = static_cast<std::uint64_t>(job.run().seed);
   options.device = job.device.kind();
+  if (options.device == DeviceKind::egl) {
+    throw UsageError("calibrate runs many trials at once, on auto, serial or tbb, not on egl");
+  }
   if (!job.quiet) options.progress = run_progress();
   ConfigSection section = section_named(job.sections, "trackers." + tracker);
   Workers workers(job.run().threads);

@@ -55,9 +55,6 @@ void add_run_option(CLI::App& command, FrameOptions& options, const char* option
 }
 
 Device make_device(const RunConfig& run) {
-  if (run.device == "egl") {
-    throw UsageError("device egl is not in this build; use auto, serial or tbb");
-  }
   try {
     return Device::named(run.device, run.threads);
   } catch (const std::invalid_argument& e) {
@@ -144,7 +141,7 @@ void add_run_options(CLI::App& command, FrameOptions& options) {
                      "TOML file, or tracks in any format: the settings of the run that wrote them");
   command.add_option("--set", options.sets, "key=value, e.g. frames.polarity=dark; repeatable")
       ->allow_extra_args(false);
-  add_run_option(command, options, "--device", "device", "auto, serial or tbb [auto]");
+  add_run_option(command, options, "--device", "device", "auto, serial, tbb, egl or egl:N [auto]");
   add_run_option(command, options, "--threads", "threads", "0 = all of the machine's [0]");
   add_run_option(command, options, "--seed", "seed", "of all random numbers [1]");
   command.add_flag("--quiet", options.quiet, "no progress line, no summary");

@@ -36,14 +36,26 @@ std::string video_support() {
 #endif
 }
 
+void print_egl_devices() {
+  const EglDevices egl = egl_devices();
+  for (const EglDevice& device : egl.devices) fmt::print("{:18}{}\n", "", description(device));
+  if (egl.devices.empty()) fmt::print("{:18}{}\n", "", egl.missing);
+}
+
 void print_info() {
   fmt::print("glint {} ({} build)\n", GLINT_VERSION, GLINT_BUILD_TYPE);
   fmt::print("instruction sets  {} (best: {})\n", isas(), name(best_isa()));
   fmt::print("threads           {}\n", Device::tbb().workers().threads());
   fmt::print("devices           {}\n", Device::serial().description());
   fmt::print("                  {} (auto)\n", Device::tbb().description());
+  print_egl_devices();
   fmt::print("kernels          ");
   for (const KernelEntry& kernel : all_kernels()) fmt::print(" {}", kernel.name);
+  fmt::print("\n  of them on egl ");
+  for (const KernelEntry& kernel : all_kernels()) {
+    if (kernel.on_egl) fmt::print(" {}", kernel.name);
+  }
+  fmt::print("; an egl device runs the others on tbb");
   fmt::print("\ninputs            {}\n", video_support());
   print_entries("trackers", all_trackers());
   print_entries("scenes", all_scenes());

@@ -18,7 +18,7 @@ namespace glint {
 void describe(FieldList& list, RunConfig& c) {
   constexpr int kMax = std::numeric_limits<int>::max();
   list("tracker", c.tracker, {}, "names of the trackers, separated by spaces");
-  list("device", c.device, {}, "where kernels run: auto, serial or tbb");
+  list("device", c.device, {}, "where kernels run: auto, serial, tbb, egl or egl:N");
   list("threads", c.threads, 0, 1024, "", "0 = all of the machine's");
   list("seed", c.seed, 0, kMax, "", "of all random numbers");
   list("add_noise", c.add_noise, 0, 1e6, "grey levels",

@@ -49,7 +49,7 @@ void find_runs(CellWorkspace& space) {
 
 // bounded_log_ratio() in double.
 double bounded(double log_ratio) {
-  constexpr double kExact = kExactLogRatio;
+  const double kExact = kExactLogRatio;
   if (log_ratio <= kExact) return log_ratio;
   return std::min<double>(kExact + kExact * std::log(log_ratio / kExact), kMaxLogRatio);
 }

@@ -1,21 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/kernels/core/device.hpp"
 
+#include <array>
+#include <charconv>
 #include <stdexcept>
 
-namespace glint {
+#include "glint/kernels/core/gl_context.hpp"
 
-std::string_view name(DeviceKind kind) { return kind == DeviceKind::serial ? "serial" : "tbb"; }
+namespace glint {
+namespace {
+
+constexpr std::string_view kNumbered = "egl:";
+
+/// The N of "egl:N", or -1.
+int number_of(std::string_view kind) {
+  if (!kind.starts_with(kNumbered)) return -1;
+  const char* const end = kind.data() + kind.size();
+  int number = -1;
+  const auto [rest, error] = std::from_chars(kind.data() + kNumbered.size(), end, number);
+  return error == std::errc() && rest == end ? number : -1;
+}
+
+}  // namespace
+
+std::string_view name(DeviceKind kind) {
+  constexpr std::array<std::string_view, 3> kNames{"serial", "tbb", "egl"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+Device Device::egl(int number, int threads) {
+  Device device(DeviceKind::egl, threads, best_isa());
+  device.context_ = open_egl_device(number);
+  return device;
+}
 
 Device Device::named(std::string_view kind, int threads) {
   if (kind == "serial") return serial();
   if (kind == "tbb" || kind == "auto") return tbb(threads);
+  if (kind == "egl") return egl(kAnyEglDevice, threads);
+  if (const int number = number_of(kind); number >= 0) return egl(number, threads);
   throw std::invalid_argument("device '" + std::string(kind) +
-                              "' is not known: use auto, serial or tbb");
+                              "' is not known: use auto, serial, tbb, egl or egl:N");
 }
 
 std::string Device::description() const {
   if (kind_ == DeviceKind::serial) return "serial (double precision reference, 1 thread)";
+  if (kind_ == DeviceKind::egl) return glint::description(context_->device());
   return "tbb (" + std::to_string(workers_->threads()) + " threads, " +
          std::string(glint::name(workers_->isa())) + ")";
 }

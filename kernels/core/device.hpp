@@ -5,12 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "glint/kernels/core/egl_devices.hpp"
 #include "glint/kernels/core/kernel_clock.hpp"
 #include "glint/kernels/core/workers.hpp"
 
 namespace glint {
 
-enum class DeviceKind { serial, tbb };
+enum class DeviceKind { serial, tbb, egl };
 
 std::string_view name(DeviceKind kind);
 
@@ -23,6 +24,12 @@ concept Kernel = requires(const typename K::Args& args, Workers& workers) {
   K::tbb(args, workers);
 };
 
+/// A kernel that also runs on OpenGL compute; others run on tbb there.
+template <class K>
+concept EglKernel = Kernel<K> && requires(const typename K::Args& args, gl::Context& context) {
+  K::egl(args, context);
+};
+
 /// Where kernels run. A new kind of device is an enumerator, a branch in run(), and a function in
 /// each kernel worth it.
 class Device {
@@ -32,11 +39,16 @@ class Device {
   static Device tbb(int threads = 0, Isa isa = best_isa()) {
     return Device(DeviceKind::tbb, threads, isa);
   }
-  /// `kind` is auto, serial or tbb; throws std::invalid_argument that lists them otherwise.
+  /// OpenGL compute without a display, opened through EGL; `threads` are for the kernels that it
+  /// lacks. Throws as open_egl_device() does.
+  static Device egl(int number = kAnyEglDevice, int threads = 0);
+  /// `kind` is auto, serial, tbb, egl or egl:N; throws std::invalid_argument that lists them
+  /// otherwise. auto is tbb.
   static Device named(std::string_view kind, int threads = 0);
 
   DeviceKind kind() const { return kind_; }
   Workers& workers() const { return *workers_; }
+  gl::Context& context() const { return *context_; }  ///< of an egl device
   std::string description() const;
 
   /// The same device, with its kernels on `clock`, which must outlive it.
@@ -56,6 +68,9 @@ class Device {
   template <Kernel K>
   void choose(const typename K::Args& args) const {
     if (kind_ == DeviceKind::serial) return K::serial(args);
+    if constexpr (EglKernel<K>) {
+      if (kind_ == DeviceKind::egl) return K::egl(args, *context_);
+    }
     K::tbb(args, *workers_);
   }
 
@@ -64,6 +79,7 @@ class Device {
 
   DeviceKind kind_;
   std::shared_ptr<Workers> workers_;
+  std::shared_ptr<gl::Context> context_;  ///< of egl only
   KernelClock* clock_ = nullptr;
 };
 

@@ -46,6 +46,7 @@ struct KernelEntry {
   std::string_view name;
   /// The trials at every tested size: empty, one, tile-1, tile, tile+1, odd widths, borders, modes.
   std::vector<std::unique_ptr<Trial>> (*trials)();
+  bool on_egl = false;  ///< else an egl device runs it on tbb
 };
 
 }  // namespace glint

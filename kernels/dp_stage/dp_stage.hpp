@@ -39,10 +39,11 @@ struct DpStage {
     ImageView<float> total;         ///< J_k, written; may not share memory with what is read
     ImageView<std::int8_t> dx, dy;  ///< best moves, written
   };
-  /// Both throw std::invalid_argument for views of different sizes and for a reach or a tolerance
+  /// All throw std::invalid_argument for views of different sizes and for a reach or a tolerance
   /// out of range.
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
   static std::vector<std::unique_ptr<Trial>> trials();
 };
 

@@ -35,6 +35,7 @@ struct ParticleLikelihood {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
   static std::vector<std::unique_ptr<Trial>> trials();
 };
 

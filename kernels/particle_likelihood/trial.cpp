@@ -105,15 +105,16 @@ std::vector<std::unique_ptr<Trial>> ParticleLikelihood::trials() {
       {4097, 1.0},
       {20001},
       {5000, 1.0, 0.5f},
-      {5000, 0.4},               // a polynomial with more terms
-      {3000, 0.3},               // 1x1
-      {3000, 0.15},              // no polynomial
-      {3000, 1.4},               // 9x9: two vectors a row
-      {3000, 2.6},               // 15x15
-      {3000, 1.0, 0, 3, 2},      // smaller than the window
-      {500, 0.7, 0, 1, 1},       //
-      {70, 0.7, 0, 0, 0},        //
-      {5000, 0.7, 0, 131, 300},  // spread over enough rows to be asked for ahead
+      {5000, 0.4},                    // a polynomial with more terms
+      {3000, 0.3},                    // 1x1
+      {3000, 0.15},                   // no polynomial
+      {3000, 1.4},                    // 9x9: two vectors a row
+      {3000, 2.6},                    // 15x15
+      {3000, 1.0, 0, 3, 2},           // smaller than the window
+      {500, 0.7, 0, 1, 1},            //
+      {70, 0.7, 0, 0, 0},             //
+      {5000, 0.7, 0, 131, 300},       // spread over enough rows to be asked for ahead
+      {140001, 0.7, 0.2f, 301, 470},  // more than small buffers of a device hold
   };
   std::vector<std::unique_ptr<Trial>> all;
   for (const Problem& problem : problems) all.push_back(std::make_unique<ParticleTrial>(problem));

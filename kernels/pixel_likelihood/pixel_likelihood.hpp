@@ -39,6 +39,7 @@ struct PixelLikelihood {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
   static std::vector<std::unique_ptr<Trial>> trials();
 };
 

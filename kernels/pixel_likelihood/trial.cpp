@@ -140,6 +140,8 @@ std::vector<std::unique_ptr<Trial>> PixelLikelihood::trials() {
       {301, 131, 0.7, false, true, 0.4},
       {301, 131, 0.6, true, false, 0.9},
       {61, 70, 0.7, false, true, 0.03, 100},
+      {641, 131, 1.0},  // more than small buffers of a device hold
+      {641, 131, 1.7, true},
   };
   std::vector<std::unique_ptr<Trial>> all;
   for (const Problem& problem : problems) all.push_back(std::make_unique<PixelTrial>(problem));

@@ -10,7 +10,6 @@
 namespace glint {
 namespace {
 
-using propagate::Move;
 using propagate::Transition;
 
 static_assert(kParticleTile % propagate::kBlock == 0, "tiles must hold whole blocks of draws");
@@ -18,25 +17,6 @@ static_assert(kParticleTile % propagate::kBlock == 0, "tiles must hold whole blo
 template <class T>
 T* data_or_null(std::span<T> array) {
   return array.empty() ? nullptr : array.data();
-}
-
-Move<float> narrowed(const Move<double>& m) {
-  const auto f = [](double v) { return static_cast<float>(v); };
-  return {f(m.along), f(m.across), f(m.cosine), f(m.sine), f(m.xx), f(m.vx),
-          f(m.vv),    f(m.half),   f(m.time),   f(m.ax),   f(m.av), f(m.aa)};
-}
-
-Transition<float> narrowed(const Transition<double>& wide) {
-  Transition<float> t{};
-  t.modes = wide.modes;
-  t.accelerates = wide.accelerates;
-  for (std::size_t m = 0; m < Propagate::kMaxModes; ++m) {
-    t.move[m] = narrowed(wide.move[m]);
-    std::copy(std::begin(wide.cumulative[m]), std::end(wide.cumulative[m]),
-              std::begin(t.cumulative[m]));
-  }
-  t.intensity_deviation = static_cast<float>(wide.intensity_deviation);
-  return t;
 }
 
 }  // namespace
@@ -50,7 +30,7 @@ void Propagate::tbb(const Args& args, Workers& workers) {
                  args.intensity.data(), accelerates ? args.ax.data() : nullptr,
                  accelerates ? args.ay.data() : nullptr, switches ? args.mode.data() : nullptr,
                  data_or_null(args.noise_scale)},
-      .transition = narrowed(transition),
+      .transition = propagate::narrowed(transition),
       .intensity_low = args.intensity_low,
       .intensity_high = args.intensity_high,
       .key = random_key(args.seed, args.frame, Purpose::propagate),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace glint::propagate {
@@ -72,6 +73,12 @@ void check_modes(const Propagate::Args& args) {
   }
 }
 
+Move<float> narrowed(const Move<double>& m) {
+  const auto f = [](double v) { return static_cast<float>(v); };
+  return {f(m.along), f(m.across), f(m.cosine), f(m.sine), f(m.xx), f(m.vx),
+          f(m.vv),    f(m.half),   f(m.time),   f(m.ax),   f(m.av), f(m.aa)};
+}
+
 void set_cumulative(const Propagate::Args& args, Transition<double>& t) {
   const std::size_t modes = args.modes.size();
   for (std::size_t from = 0; from < modes && modes > 1; ++from) {
@@ -106,6 +113,19 @@ Transition<double> transition_of(const Propagate::Args& args) {
   }
   set_cumulative(args, t);
   t.intensity_deviation = std::sqrt(static_cast<double>(args.intensity_noise) * args.step);
+  return t;
+}
+
+Transition<float> narrowed(const Transition<double>& wide) {
+  Transition<float> t{};
+  t.modes = wide.modes;
+  t.accelerates = wide.accelerates;
+  for (std::size_t m = 0; m < Propagate::kMaxModes; ++m) {
+    t.move[m] = narrowed(wide.move[m]);
+    std::copy(std::begin(wide.cumulative[m]), std::end(wide.cumulative[m]),
+              std::begin(t.cumulative[m]));
+  }
+  t.intensity_deviation = static_cast<float>(wide.intensity_deviation);
   return t;
 }
 

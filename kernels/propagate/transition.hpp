@@ -32,5 +32,7 @@ struct Transition {
 void check(const Propagate::Args& args);
 /// Of checked arguments.
 Transition<double> transition_of(const Propagate::Args& args);
+/// The same for devices that calculate in float.
+Transition<float> narrowed(const Transition<double>& wide);
 
 }  // namespace glint::propagate

@@ -55,6 +55,7 @@ struct Resample {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
   static std::vector<std::unique_ptr<Trial>> trials();
 };
 

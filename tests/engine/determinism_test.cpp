@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "egl.hpp"
 #include "glint/engine/log_parity.hpp"
 #include "glint/engine/scenario/scenes.hpp"
 
@@ -55,6 +56,11 @@ TEST_P(Determinism, LogOfASmallFrameIsTheSameForAnyThreadsAndInstructionSet) {
 
 TEST_P(Determinism, SerialDeviceRepeatsItself) {
   expect_one_log(make_scene(CrossingScene{}), std::vector{Device::serial(), Device::serial()});
+}
+
+TEST_P(Determinism, EglDeviceRepeatsItself) {
+  GLINT_NEEDS_EGL(device);
+  expect_one_log(make_scene(CrossingScene{}), std::vector{device, device});
 }
 
 // The frames are the same: whatever differs comes from the tracker's own random numbers.

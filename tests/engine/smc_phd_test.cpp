@@ -108,11 +108,12 @@ TEST(SmcPhd, KeepsTwoCrossingTargetsApart) {
 }
 
 TEST(SmcPhd, TakesEmptyTinyAndSingleFrames) {
-  SmcPhd tracker(SmcPhdConfig{}, Device::serial(), 1);
+  const SmcPhdConfig config;
+  SmcPhd tracker(config, Device::serial(), 1);
   TrackLog log;
   tracker.step(Scan{}, log);
   for (const auto& [w, h] : {std::pair{1, 1}, {3, 2}}) {
-    SmcPhd small(SmcPhdConfig{}, Device::serial(), 1);
+    SmcPhd small(config, Device::serial(), 1);
     Scan scan;
     scan.whitened = Frame(Image<float>(w, h));
     small.step(scan, log);

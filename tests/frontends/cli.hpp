@@ -18,10 +18,13 @@ struct Result {
   std::string out, err;
 };
 
-/// Runs the built program with `arguments`, which a shell splits.
-inline Result glint(const Folder& folder, const std::string& arguments) {
+/// Runs the built program with `arguments`, which a shell splits, and `NAME=value` settings of its
+/// environment.
+inline Result glint(const Folder& folder, const std::string& arguments,
+                    const std::string& environment = "") {
   const std::string err = folder / "stderr.txt";
-  FILE* pipe = popen((std::string(GLINT_BINARY) + " " + arguments + " 2>" + err).c_str(), "r");
+  FILE* pipe =
+      popen((environment + " " + GLINT_BINARY + " " + arguments + " 2>" + err).c_str(), "r");
   Result result;
   std::array<char, 4096> buffer;
   while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) {

@@ -31,7 +31,7 @@ TEST(Cli, WrongUseIsExitCodeTwoAndOneLine) {
   expect_error(glint(folder, "track scene:noise --tracker foo"), 2, "smc-phd");
   expect_error(glint(folder, "track scene:foo --tracker smc-phd"), 2, "noise");
   expect_error(glint(folder, "track none.mp4 --tracker smc-phd"), 2, "none.mp4");
-  expect_error(glint(folder, run + "--device egl"), 2, "not in this build");
+  expect_error(glint(folder, run + "--device gpu"), 2, "use auto, serial, tbb, egl or egl:N");
   expect_error(glint(folder, run + "--set no_such=1"), 2, "no_such");
   expect_error(glint(folder, run + "--set birth_particles=0"), 2, "must be in");
   expect_error(glint(folder, run + "--seed x"), 2, "run.seed");

@@ -177,7 +177,7 @@ TEST(Device, NamesTheChoicesForAWrongName) {
     Device::named("gpu");
     FAIL();
   } catch (const std::invalid_argument& e) {
-    EXPECT_STREQ(e.what(), "device 'gpu' is not known: use auto, serial or tbb");
+    EXPECT_STREQ(e.what(), "device 'gpu' is not known: use auto, serial, tbb, egl or egl:N");
   }
 }
 

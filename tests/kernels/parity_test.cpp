@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "egl.hpp"
 #include "glint/kernels/all.hpp"
 
 namespace glint {
@@ -29,17 +32,36 @@ class Parity : public testing::TestWithParam<KernelEntry> {
 };
 
 TEST_P(Parity, TbbIsInsideTheToleranceOfSerialWithTheSameBitsForAnyThreadsAndIsa) {
-  const std::vector<Device> devices = parity_devices(DeviceKind::tbb);
+  const std::vector<Device> devices = parity_devices(Device::tbb());
   const std::vector<ParityRow> rows = check_parity(GetParam(), devices);
   EXPECT_FALSE(rows.empty());
   for (const ParityRow& row : rows) EXPECT_TRUE(row.ok()) << description(row);
 }
 
+/// Kernels that an egl device runs itself.
+std::vector<KernelEntry> egl_kernels() {
+  std::vector<KernelEntry> list;
+  std::ranges::copy_if(all_kernels(), std::back_inserter(list), &KernelEntry::on_egl);
+  return list;
+}
+
+class EglParity : public testing::TestWithParam<KernelEntry> {};
+
+TEST_P(EglParity, IsInsideTheToleranceOfSerialWithTheSameBitsInEveryRunAndInSmallBuffers) {
+  GLINT_NEEDS_EGL(device);
+  const std::vector<Device> devices = parity_devices(device);
+  const std::vector<ParityRow> rows = check_parity(GetParam(), devices);
+  EXPECT_FALSE(rows.empty());
+  for (const ParityRow& row : rows) EXPECT_TRUE(row.ok()) << description(row);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, EglParity, testing::ValuesIn(egl_kernels()), test_name);
+
 INSTANTIATE_TEST_SUITE_P(Kernels, Parity,
                          testing::ValuesIn(all_kernels().begin(), all_kernels().end()), test_name);
 
 TEST(ParityDevices, CoverOneTwoThreeAndEightThreadsOnEveryIsa) {
-  const std::vector<Device> devices = parity_devices(DeviceKind::tbb);
+  const std::vector<Device> devices = parity_devices(Device::tbb());
   ASSERT_EQ(devices.size(), 4 * runnable_isas().size());
   for (std::size_t i = 0; i < devices.size(); ++i) {
     constexpr int kThreads[] = {1, 2, 3, 8};
@@ -79,7 +101,7 @@ std::vector<ParityRow> failures() {
                             list.push_back(std::make_unique<FaultyTrial<fault>>());
                             return list;
                           }};
-  const std::vector<Device> devices = parity_devices(DeviceKind::tbb);
+  const std::vector<Device> devices = parity_devices(Device::tbb());
   std::vector<ParityRow> rows = check_parity(entry, devices);
   EXPECT_EQ(rows.size(), devices.size());
   std::erase_if(rows, [](const ParityRow& row) { return row.ok(); });
@@ -90,7 +112,7 @@ TEST(ParityCheck, PassesARightKernel) { EXPECT_TRUE(failures<Fault::none>().empt
 
 TEST(ParityCheck, FailsOutsideTheToleranceAndNamesTheIndex) {
   const auto rows = failures<Fault::tolerance>();
-  ASSERT_EQ(rows.size(), parity_devices(DeviceKind::tbb).size());
+  ASSERT_EQ(rows.size(), parity_devices(Device::tbb()).size());
   ASSERT_TRUE(rows.front().outside);
   EXPECT_EQ(rows.front().outside->index, 2u);
   EXPECT_NEAR(rows.front().worst, 2, 1e-9);
@@ -115,8 +137,8 @@ TEST(ParityCheck, TellsMinusZeroFromZero) {
 }
 
 TEST(ParityCheck, FailsForAnotherLengthAndForNan) {
-  EXPECT_EQ(failures<Fault::length>().size(), parity_devices(DeviceKind::tbb).size());
-  EXPECT_EQ(failures<Fault::nan>().size(), parity_devices(DeviceKind::tbb).size());
+  EXPECT_EQ(failures<Fault::length>().size(), parity_devices(Device::tbb()).size());
+  EXPECT_EQ(failures<Fault::nan>().size(), parity_devices(Device::tbb()).size());
 }
 
 }  // namespace

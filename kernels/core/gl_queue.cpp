@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/kernels/core/gl_queue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <stdexcept>
+
+namespace glint::gl {
+namespace {
+
+constexpr std::size_t kGroup = 64;         // GLINT_GROUP of prelude.glsl
+constexpr std::size_t kMaxGroups = 65535;  // that every device takes along an axis
+
+constexpr const char* kSmaller = "take smaller frames, fewer particles or --device tbb";
+
+/// Capacity of a buffer: an eighth of its size is wasted at most, so that the pool's fit again.
+std::size_t rounded(std::size_t bytes) {
+  const std::size_t step = std::max<std::size_t>(256, std::bit_floor(bytes) / 8);
+  return (std::max<std::size_t>(bytes, 1) + step - 1) / step * step;
+}
+
+std::string size_text(std::size_t bytes) {
+  constexpr std::size_t kMega = std::size_t{1} << 20;
+  return bytes < kMega ? std::to_string(bytes) + " bytes" : std::to_string(bytes / kMega) + " MB";
+}
+
+}  // namespace
+
+Buffer::~Buffer() {
+  if (queue_ != nullptr) queue_->pool_.push_back({id_, capacity_});
+}
+
+Queue::Queue(const Api& api, const EglDevice& device, bool debug) : api_(api), device_(device) {
+  std::int64_t most = 0;
+  api_.GetInteger64v(Api::kMaxStorageBlock, &most);
+  constexpr std::int64_t kLargest = std::numeric_limits<std::int32_t>::max();
+  max_bytes_ = static_cast<std::size_t>(std::min(most, kLargest));
+  if (!debug) return;
+  api_.Enable(Api::kDebugOutput);
+  api_.Enable(Api::kDebugSynchronous);
+  api_.DebugMessageCallback(&on_debug, this);
+}
+
+Queue::~Queue() {
+  for (const auto& [name, program] : programs_) api_.DeleteProgram(program);
+  drop_pool();
+}
+
+void Queue::on_debug(Enum, Enum type, unsigned, Enum, int, const char* message, const void* user) {
+  auto* queue = static_cast<Queue*>(const_cast<void*>(user));
+  if (type == Api::kDebugError && queue->debug_error_.empty()) queue->debug_error_ = message;
+}
+
+void Queue::fail(const std::string& what) const {
+  throw std::runtime_error("egl:" + std::to_string(device_.number) + " (" + device_.renderer +
+                           "): " + what);
+}
+
+void Queue::check(const std::string& doing) {
+  const Enum error = api_.GetError();
+  const std::string message = std::exchange(debug_error_, {});
+  if (error == Api::kOutOfMemory) {
+    fail("out of memory " + doing + "; " + kSmaller);
+  }
+  if (error == Api::kContextLost) {
+    fail("the driver lost the context " + doing + "; run again, or use --device tbb");
+  }
+  if (error != 0 || !message.empty()) {
+    fail("error " + std::to_string(error) + " " + doing + " " + message +
+         "; use --device tbb and report it with the output of glint info");
+  }
+}
+
+Buffer Queue::take(std::size_t bytes) {
+  if (bytes > max_bytes_) {
+    fail("a buffer of " + size_text(bytes) + " is beyond its limit of " + size_text(max_bytes_) +
+         "; use --device tbb");
+  }
+  const std::size_t capacity = rounded(bytes);
+  const auto found = std::ranges::find(pool_, capacity, &Free::capacity);
+  if (found != pool_.end()) {
+    const unsigned id = found->id;
+    pool_.erase(found);
+    return {*this, id, capacity};
+  }
+  unsigned id = 0;
+  api_.GenBuffers(1, &id);
+  if (reserve(id, capacity)) return {*this, id, capacity};
+  drop_pool();
+  if (reserve(id, capacity)) return {*this, id, capacity};
+  api_.DeleteBuffers(1, &id);
+  fail("no memory for a buffer of " + size_text(capacity) + "; " + kSmaller);
+}
+
+bool Queue::reserve(unsigned id, std::size_t capacity) {
+  api_.BindBuffer(Api::kCopyBuffer, id);
+  api_.BufferData(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(capacity), nullptr,
+                  Api::kDynamicCopy);
+  const bool full = api_.GetError() == Api::kOutOfMemory;
+  if (full) debug_error_.clear();
+  return !full;
+}
+
+void Queue::drop_pool() {
+  for (const Free& free : pool_) api_.DeleteBuffers(1, &free.id);
+  pool_.clear();
+}
+
+void Queue::write_bytes(const Buffer& to, std::size_t offset, std::size_t bytes,
+                        FunctionRef<void(void*)> fill) {
+  if (bytes == 0) return;
+  api_.BindBuffer(Api::kCopyBuffer, to.id_);
+  void* at =
+      api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(offset),
+                          static_cast<std::ptrdiff_t>(bytes), Api::kMapWrite | Api::kMapInvalidate);
+  check("while sending " + size_text(bytes));
+  if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
+  fill(at);
+  api_.UnmapBuffer(Api::kCopyBuffer);
+}
+
+void Queue::read_bytes(const Buffer& from, std::size_t offset, std::size_t bytes,
+                       FunctionRef<void(const void*)> copy) {
+  if (bytes == 0) return;
+  api_.MemoryBarrier(Api::kAllBarriers);
+  api_.BindBuffer(Api::kCopyBuffer, from.id_);
+  const void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(offset),
+                                       static_cast<std::ptrdiff_t>(bytes), Api::kMapRead);
+  check("while reading " + size_text(bytes));
+  if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
+  copy(at);
+  api_.UnmapBuffer(Api::kCopyBuffer);
+}
+
+std::uint32_t Queue::sum_before(const Buffer& counts, std::size_t count) {
+  scratch_.resize(count);
+  read(counts, std::span(scratch_));
+  std::uint32_t sum = 0;
+  for (std::uint32_t& value : scratch_) sum += std::exchange(value, sum);
+  write(counts, std::span<const std::uint32_t>(scratch_));
+  return sum;
+}
+
+void Queue::dispatch(const Shader& shader, std::string_view pass, std::size_t items,
+                     const Buffer& parameters, std::initializer_list<const Buffer*> buffers) {
+  if (items == 0) return;
+  api_.UseProgram(program(shader, pass));
+  unsigned binding = 0;
+  api_.BindBufferBase(Api::kStorageBuffer, binding++, parameters.id_);
+  for (const Buffer* buffer : buffers) {
+    api_.BindBufferBase(Api::kStorageBuffer, binding++, buffer->id_);
+  }
+  const std::size_t groups = (items + kGroup - 1) / kGroup;
+  const std::size_t columns = std::min(groups, kMaxGroups);
+  const std::size_t rows = (groups + columns - 1) / columns;
+  api_.DispatchCompute(static_cast<unsigned>(columns), static_cast<unsigned>(rows), 1);
+  api_.MemoryBarrier(Api::kAllBarriers);
+  check("in " + std::string(shader.name) + "." + std::string(pass));
+}
+
+unsigned Queue::program(const Shader& shader, std::string_view pass) {
+  const std::string name = std::string(shader.name) + '.' + std::string(pass);
+  const auto found = programs_.find(name);
+  if (found != programs_.end()) return found->second;
+  return programs_.emplace(name, built(shader, pass)).first->second;
+}
+
+unsigned Queue::built(const Shader& shader, std::string_view pass) {
+  const std::string entry = "\nvoid main() { " + std::string(pass) + "(); }\n";
+  const std::array<const char*, 2> text{shader.text, entry.c_str()};
+  const unsigned compiled = api_.CreateShader(Api::kComputeShader);
+  api_.ShaderSource(compiled, static_cast<int>(text.size()), text.data(), nullptr);
+  api_.CompileShader(compiled);
+  std::array<char, 2048> log{};
+  std::int32_t ok = 0;
+  api_.GetShaderiv(compiled, Api::kCompileStatus, &ok);
+  if (ok == 0) api_.GetShaderInfoLog(compiled, log.size() - 1, nullptr, log.data());
+  const unsigned program = api_.CreateProgram();
+  if (ok != 0) {
+    api_.AttachShader(program, compiled);
+    api_.LinkProgram(program);
+    api_.GetProgramiv(program, Api::kLinkStatus, &ok);
+    if (ok == 0) api_.GetProgramInfoLog(program, log.size() - 1, nullptr, log.data());
+  }
+  api_.DeleteShader(compiled);
+  if (ok != 0) return program;
+  api_.DeleteProgram(program);
+  api_.GetError();  // the log says more
+  debug_error_.clear();
+  fail(std::string(shader.name) + "." + std::string(pass) + " does not compile: " + log.data() +
+       "; update the driver or use --device tbb");
+}
+
+}  // namespace glint::gl
