@@ -48,8 +48,9 @@ struct Moments {
   int count;
 };
 
-// Loops of one length: llvmpipe of Mesa 22.3 loses turns of nested ones that end at different times in
-// neighbouring invocations. Whether the unit at (x, y) has the pixel (u, v) further on, with a number in it.
+// Whether the unit at (x, y) has the pixel (u, v) further on, with a number in it. Units are run over
+// in loops of one length, for with bounds of their own llvmpipe (Mesa 22.3) was seen to give units
+// that the border cuts a wrong centroid.
 bool has(int x, int y, int u, int v) {
   return x + u < band.width && y + v < band.height && finite(pixel(x + u, y + v));
 }

@@ -32,7 +32,8 @@ struct Noise {
 void move_axis(uint i, MoveTerms m, float turn, uint x, float v, float other, uint vx, uint ax,
                Noise n) {
   float a = pass.accelerates != 0u ? get(ax, i) : 0.0;
-  precise float step = m.along * v + turn * m.across * other + m.half_square * a + m.xx * n.position;
+  precise float step = m.along * v + turn * m.across * other + m.half_square * a +
+                       m.xx * n.position;
   set(x, i, get(x, i) + step);
   precise float velocity = m.cosine * v + turn * m.sine * other + m.time * a + m.vx * n.position +
                            m.vv * n.velocity;
@@ -76,7 +77,9 @@ void move() {
   NormalPair third = NormalPair(0.0, 0.0);
   if (m.time != 0.0) third = third_noise(particle);
   float vx = get(kVx, i), vy = get(kVy, i);
-  move_axis(i, m, -1.0, kX, vx, vy, kVx, kAx, Noise(scale * nx.n0, scale * nx.n1, scale * third.n0));
-  move_axis(i, m, 1.0, kY, vy, vx, kVy, kAy, Noise(scale * ny.n0, scale * ny.n1, scale * third.n1));
+  Noise x = Noise(scale * nx.n0, scale * nx.n1, scale * third.n0);
+  Noise y = Noise(scale * ny.n0, scale * ny.n1, scale * third.n1);
+  move_axis(i, m, -1.0, kX, vx, vy, kVx, kAx, x);
+  move_axis(i, m, 1.0, kY, vy, vx, kVy, kAy, y);
   walk_intensity(i, particle, scale);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ancestors by the formulas of shares.hpp, in double and of whole numbers, so that they are exact:
 // sums of chunks, which the host turns into the sums before them; how many offspring come before
-// each particle; and for each offspring, the last particle that no more than its number come before.
+// each particle; and for each offspring, the last particle that no more than its number come
+// before.
 #include "glint/kernels/core/prelude.glsl"
 #include "glint/kernels/resample/pass.glsl"
 
