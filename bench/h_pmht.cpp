@@ -70,7 +70,8 @@ Result one_target(const Options& options) {
   const double before = on_core();
   const FullFrameHPmht full = follow_in_full_frames(*scans);
   const double seconds = on_core() - before;
-  result.timings.push_back(one_timing("full frames in double, once", 1, seconds, 1));
+  result.timings.push_back(
+      one_timing("full frames in double, 3 passes an iteration, once", 1, seconds, 1));
   result.figures.push_back(
       {"iterations of a scan in the 20 frames", static_cast<double>(full.scan_iterations()), {}});
   const TrackPoint last = follow(*scans, device);

@@ -10,7 +10,8 @@
 #include "glint/kernels/cell_integrals/cell_integrals.hpp"
 
 /// H-PMHT as one writes it from the paper: every step over every cell of the frame, in double, with
-/// the integrals of each cell anew.
+/// the integrals of each cell anew. An iteration passes over a frame three times: total
+/// probabilities (6)-(8), counts and centroids (9)-(11), and spreads about the new state (17)-(18).
 namespace glint::bench {
 
 /// One target's expectation step, P-HPMHT (6)-(11), (17), (18), z = max(pixel - threshold, 0):
