@@ -27,8 +27,10 @@ struct Options {
 
 /// Every kernel beside its limit, its serial reference and what others do the same with.
 std::vector<Result> bench_kernels(const Options& options);
-/// Every registered tracker on a built-in scene, beside the serial device [scans/s].
+/// Trackers of points beside plain baselines, then every registered tracker on a built-in scene,
+/// beside the serial device [scans/s].
 std::vector<Result> bench_trackers(const Options& options);
+Result bench_point_trackers(const Options& options);
 /// The whole engine with smc-phd on frames in memory [frames/s], the share of each stage, and the
 /// rate of its kernels alone.
 std::vector<Result> bench_frames(const Options& options);

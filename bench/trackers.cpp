@@ -33,9 +33,7 @@ void track(const TrackerEntry& entry, const Device& device, const std::vector<Sc
   tracker->finish(log);
 }
 
-}  // namespace
-
-std::vector<Result> bench_trackers(const Options& options) {
+Result bench_on_frames(const Options& options) {
   Suite suite("trackers on the scene ir-clip, frames prepared before", "scan");
   const auto scans = std::make_shared<const std::vector<Scan>>(prepared_scans());
   for (const TrackerEntry& entry : all_trackers()) {
@@ -47,9 +45,18 @@ std::vector<Result> bench_trackers(const Options& options) {
     suite.ratio_of_threads(name + " of the serial device", name, name + " serial", {}, {});
     suite.scaling(name, {});
   }
-  const Result result = measure(suite, options.quick ? Budget{3, 1} : Budget{9, 20});
-  if (options.done) options.done(result);
-  return {result};
+  return measure(suite, options.quick ? Budget{3, 1} : Budget{9, 20});
+}
+
+}  // namespace
+
+std::vector<Result> bench_trackers(const Options& options) {
+  std::vector<Result> results;
+  for (Result (*const run)(const Options&) : {bench_point_trackers, bench_on_frames}) {
+    results.push_back(run(options));
+    if (options.done) options.done(results.back());
+  }
+  return results;
 }
 
 }  // namespace glint::bench
