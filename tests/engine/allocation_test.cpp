@@ -2,44 +2,17 @@
 // No allocation per frame once warm. An executable of its own: it counts every operator new.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <vector>
 
+#include "counted_allocations.hpp"
 #include "glint/engine/scenario/scenes.hpp"
 #include "glint/engine/trackers/registry.hpp"
 
-namespace {
-
-std::atomic<std::size_t> allocations{0};
-
-void* counted(void* block) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  if (block == nullptr) throw std::bad_alloc();
-  return block;
-}
-
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  return counted(std::malloc(std::max<std::size_t>(size, 1)));
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
-  const auto to = static_cast<std::size_t>(alignment);
-  return counted(std::aligned_alloc(to, (size + to - 1) / to * to));
-}
-[[gnu::noinline]] void operator delete(void* block) noexcept { std::free(block); }
-[[gnu::noinline]] void operator delete(void* block, std::size_t) noexcept { std::free(block); }
-[[gnu::noinline]] void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
-[[gnu::noinline]] void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
-  std::free(block);
-}
-
 namespace glint {
 namespace {
+
+using test::allocations;
 
 constexpr std::int64_t kWarmUp = 100, kFrames = 140;
 constexpr std::size_t kPoints = 10000;
