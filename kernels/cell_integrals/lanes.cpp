@@ -123,8 +123,11 @@ void crowded(const LaneCells& cells, const LaneTarget& t, const TargetProfile& p
 
 void sum(const LaneCells& cells, const float* pixels, int n, int rows, double& norm,
          double& shown) {
-  if (cells.truncate_dark) return sum_all<true>(cells, pixels, n, rows, norm, shown);
-  sum_all<false>(cells, pixels, n, rows, norm, shown);
+  if (cells.truncate_dark) return sum_all<Sum::any_counted>(cells, pixels, n, rows, norm, shown);
+  if (cells.offset == cells.threshold) {
+    return sum_all<Sum::subtracted>(cells, pixels, n, rows, norm, shown);
+  }
+  sum_all<Sum::kept>(cells, pixels, n, rows, norm, shown);
 }
 
 }  // namespace

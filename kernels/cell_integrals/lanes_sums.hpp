@@ -9,6 +9,7 @@ namespace glint::GLINT_LANES {
 namespace {
 
 constexpr float kLargest = 3.4e38f;
+constexpr float kInfinity = __builtin_inff();
 
 /// Sixteen pixels, of which `n` may be read.
 GLINT_INLINE Wide load_pixels(const float* pixels, int n) {
@@ -47,20 +48,38 @@ GLINT_INLINE void dots(const ColumnSums& sums, const Cells& columns, double* out
   out[4] += total(sums.second * columns.p);
 }
 
-/// Adds z, and with `CountLit` the displayed cells, of sixteen pixels, of which `n` count.
-template <bool CountLit>
-GLINT_INLINE void add_cells(const LaneCells& cells, const Wide& raw, int n, Wide& sums, Wide& lit) {
+/// What sum_rows() adds up: z of pixels that are taken to be finite or NaN, with threshold and
+/// offset alike (`subtracted`) or not (`kept`); z of any pixels; and the displayed cells too.
+enum class Sum { subtracted, kept, any, any_counted };
+
+template <Sum Kind>
+GLINT_INLINE void add_cells(const LaneCells& cells, const Wide& raw, Wide& sums, Wide& lit) {
   for (int k = 0; k < kParts; ++k) {
     const Part v = raw.part[k];
-    auto is_lit = (v > cells.threshold) & (v <= kLargest);
-    if (n < 16) is_lit &= count_from<kLanes>(k * kLanes) < n;
-    sums.part[k] += where(is_lit, v - cells.offset);
-    if (CountLit) lit.part[k] += where(is_lit, broadcast<Part>(1.0f));
+    if constexpr (Kind == Sum::subtracted) {
+      sums.part[k] += greater(broadcast<Part>(0.0f), v - cells.threshold);
+    } else if constexpr (Kind == Sum::kept) {
+      sums.part[k] += where(v > cells.threshold, v - cells.offset);
+    } else {
+      const auto is_lit = (v > cells.threshold) & (v <= kLargest);
+      sums.part[k] += where(is_lit, v - cells.offset);
+      if (Kind == Sum::any_counted) lit.part[k] += where(is_lit, broadcast<Part>(1.0f));
+    }
   }
 }
 
+/// The first `n` < 16 pixels, then some that are dark under any threshold.
+GLINT_INLINE Wide load_last(const float* pixels, int n) {
+  Wide raw = load_wide_first(pixels, n);
+  for (int k = 0; k < kParts; ++k) {
+    raw.part[k] =
+        where(count_from<kLanes>(k * kLanes) < n, raw.part[k], broadcast<Part>(-kInfinity));
+  }
+  return raw;
+}
+
 /// Rows side by side, so that no sum waits for the one before it.
-template <bool CountLit, int Rows>
+template <Sum Kind, int Rows>
 GLINT_INLINE void sum_rows(const LaneCells& cells, const float* pixels, int n, double& norm,
                            double& shown) {
   Wide sums[Rows], lit[Rows];
@@ -68,27 +87,31 @@ GLINT_INLINE void sum_rows(const LaneCells& cells, const float* pixels, int n, d
   int x = 0;
   for (; x + 16 <= n; x += 16) {
     for (int r = 0; r < Rows; ++r) {
-      add_cells<CountLit>(cells, load_wide(pixels + r * cells.pitch + x), 16, sums[r], lit[r]);
+      add_cells<Kind>(cells, load_wide(pixels + r * cells.pitch + x), sums[r], lit[r]);
     }
   }
   for (int r = 0; r < Rows && x < n; ++r) {
-    const Wide last = load_wide_first(pixels + r * cells.pitch + x, n - x);
-    add_cells<CountLit>(cells, last, n - x, sums[r], lit[r]);
+    add_cells<Kind>(cells, load_last(pixels + r * cells.pitch + x, n - x), sums[r], lit[r]);
   }
   for (int r = 1; r < Rows; ++r) sums[0] = sums[0] + sums[r], lit[0] = lit[0] + lit[r];
-  norm += total(sums[0]);
-  shown += CountLit ? total(lit[0]) : static_cast<float>(n * Rows);
+  const float sum = total(sums[0]);
+  if constexpr (Kind == Sum::subtracted || Kind == Sum::kept) {
+    // An infinite pixel, which is dark, was added: look again.
+    if (sum > kLargest) return sum_rows<Sum::any, Rows>(cells, pixels, n, norm, shown);
+  }
+  norm += sum;
+  shown += Kind == Sum::any_counted ? total(lit[0]) : static_cast<float>(n * Rows);
 }
 
-template <bool CountLit>
+template <Sum Kind>
 GLINT_INLINE void sum_all(const LaneCells& cells, const float* pixels, int n, int rows,
                           double& norm, double& shown) {
   constexpr int kTogether = 4;
   int y = 0;
   for (; y + kTogether <= rows; y += kTogether) {
-    sum_rows<CountLit, kTogether>(cells, pixels + y * cells.pitch, n, norm, shown);
+    sum_rows<Kind, kTogether>(cells, pixels + y * cells.pitch, n, norm, shown);
   }
-  for (; y < rows; ++y) sum_rows<CountLit, 1>(cells, pixels + y * cells.pitch, n, norm, shown);
+  for (; y < rows; ++y) sum_rows<Kind, 1>(cells, pixels + y * cells.pitch, n, norm, shown);
 }
 
 }  // namespace

@@ -123,6 +123,7 @@ struct Round {
   std::size_t begin, end, near_begin, near_end;
 };
 Round round_at(const Space& space, const Tiles& split, std::size_t begin, std::size_t length) {
+  if (split.tiles() == 1) return {0, 1, 0, 1};
   const std::size_t end = std::min(begin + length, split.tiles());
   const auto near = space.grid.around(space.targets, split.begin(begin), split.end(end - 1));
   return {begin, end, near.first / split.size, (near.end + split.size - 1) / split.size};

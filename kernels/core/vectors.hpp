@@ -70,6 +70,14 @@ GLINT_INLINE void store(T* p, V v) {
   __builtin_memcpy(p, &v, sizeof v);
 }
 
+/// First, first + 1, ...
+template <int N>
+GLINT_INLINE Ints<N> count_from(int first) {
+  Ints<N> v;
+  for (int i = 0; i < N; ++i) v[i] = i;
+  return v + first;
+}
+
 /// The first `n` elements, then zeros; reads nothing beyond them.
 template <int N, class T>
 GLINT_INLINE Floats<N> load_first(const T* p, int n) {
@@ -78,6 +86,12 @@ GLINT_INLINE Floats<N> load_first(const T* p, int n) {
   if constexpr (N == 16 && sizeof(T) == 4) return (Floats<N>)_mm512_maskz_loadu_ps(bits, p);
   if constexpr (N == 16 && sizeof(T) == 2) {
     return to_floats<N>((typename Vector<N>::U16)_mm256_maskz_loadu_epi16(bits, p));
+  }
+#endif
+#ifdef __AVX2__
+  if constexpr (N == 8 && sizeof(T) == 4) {
+    const Ints<N> first = count_from<N>(0) < n;
+    return (Floats<N>)_mm256_maskload_ps(p, (__m256i)first);
   }
 #endif
   T some[N] = {};
@@ -94,13 +108,6 @@ GLINT_INLINE void store_first(float* p, V v, int n) {
   }
 #endif
   for (int i = 0; i < n; ++i) p[i] = v[i];
-}
-/// First, first + 1, ...
-template <int N>
-GLINT_INLINE Ints<N> count_from(int first) {
-  Ints<N> v;
-  for (int i = 0; i < N; ++i) v[i] = i;
-  return v + first;
 }
 /// `a` where the lane of the comparison is true, zero elsewhere.
 template <class V, class M>

@@ -207,6 +207,25 @@ TEST_P(CellIntegralsOn, CellsWithoutDataGiveTheirExpectation) {
   expect_quadrature(a, targets);
 }
 
+TEST_P(CellIntegralsOn, TheTotalLeavesOutWhatIsNotFinite) {
+  const float inf = std::numeric_limits<float>::infinity();
+  for (const int width : {1, 7, 8, 16, 23, 37}) {
+    Image<float> image = noise_image(width, 9);
+    image.view()(width / 2, 1) = inf;
+    image.view()(width - 1, 4) = -inf;
+    image.view()(0, 5) = image.view()(width - 1, 8) = std::numeric_limits<float>::quiet_NaN();
+    for (const CellRule& rule : {CellRule{0.5F, true}, CellRule{-0.5F, true}, CellRule{0.5F, false},
+                                 CellRule{0.5F, true, true}}) {
+      CellTotal total, truth;
+      device_.run<SumCells>({image.view(), rule, &total});
+      SumCells::serial({image.view(), rule, &truth});
+      EXPECT_NEAR(total.norm, truth.norm, 1e-6 * (1 + truth.norm)) << width;
+      EXPECT_EQ(total.shown, truth.shown) << width;
+      EXPECT_TRUE(std::isfinite(total.norm)) << width;
+    }
+  }
+}
+
 TEST_P(CellIntegralsOn, ScalingTheIntensityScalesCountsAndNothingElse) {
   const std::vector<HistogramTarget> targets{{20.3, 17.9, 1.3, 1.7, 0.1}, {22, 18, 1, 1, 0.1}};
   CellIntegrals::Args a = args();
