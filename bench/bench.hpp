@@ -32,8 +32,9 @@ std::vector<Result> bench_kernels(const Options& options);
 std::vector<Result> bench_trackers(const Options& options);
 Result bench_point_trackers(const Options& options);
 /// The whole engine with smc-phd on frames in memory [frames/s], the share of each stage, and the
-/// rate of its kernels alone.
+/// rate of its kernels alone; then mm-phd and pmht-imm on one stream beside each of them alone.
 std::vector<Result> bench_frames(const Options& options);
+Result bench_together(const Options& options);
 /// H-PMHT: one target against full frames in double, the tracker with 100 targets, and what an
 /// iteration costs by targets and pixels.
 std::vector<Result> bench_h_pmht(const Options& options);

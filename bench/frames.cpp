@@ -33,9 +33,7 @@ double run_kernels(const MemoryScene& scene, const Device& plain, const RunLengt
   return all;
 }
 
-}  // namespace
-
-std::vector<Result> bench_frames(const Options& options) {
+Result bench_engine(const Options& options) {
   const auto [width, height] = options.size;
   Result result{"frames: whole engine, " + std::to_string(width) + "x" + std::to_string(height) +
                     " uint16 in memory, " + kTracker,
@@ -50,8 +48,18 @@ std::vector<Result> bench_frames(const Options& options) {
   const double kernels = run_kernels(scene, device, length, result);
   result.figures.push_back(
       {"rate of the engine over that of its kernels", kernels / engine, {.8, .8}});
-  if (options.done) options.done(result);
-  return {result};
+  return result;
+}
+
+}  // namespace
+
+std::vector<Result> bench_frames(const Options& options) {
+  std::vector<Result> results;
+  for (Result (*const run)(const Options&) : {bench_engine, bench_together}) {
+    results.push_back(run(options));
+    if (options.done) options.done(results.back());
+  }
+  return results;
 }
 
 }  // namespace glint::bench

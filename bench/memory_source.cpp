@@ -9,7 +9,7 @@
 namespace glint::bench {
 namespace {
 
-constexpr double kSpeed = 1, kSnr = 14;  // [px/frame], [dB]
+constexpr double kSpeed = 1;  // [px/frame]
 
 // Adds a target of the given sensor counts over the whole point spread.
 void stamp(ImageView<std::uint16_t> image, double x, double y, double counts) {
@@ -27,27 +27,40 @@ void stamp(ImageView<std::uint16_t> image, double x, double y, double counts) {
 
 }  // namespace
 
-MemoryScene::MemoryScene(int width, int height, const Content& content) {
+MemoryScene::MemoryScene(int width, int height, const Content& content)
+    : width_(width), height_(height), content_(content) {
   for (int i = 0; i < content.frames; ++i) {
     frames_.push_back(i < content.noises
                           ? sensor_frame(width, height, static_cast<std::uint32_t>(i))
                           : frames_[static_cast<std::size_t>(i % content.noises)]);
   }
-  const double counts = kSensorScale * PointSpread::of(1).intensity_of_snr(kSnr);
-  const double room = width - kSpeed * content.frames;
+  const double counts = kSensorScale * PointSpread::of(1).intensity_of_snr(content.snr);
   for (int i = 0; i < content.frames; ++i) {
     for (int target = 0; target < content.targets; ++target) {
-      const double x = (target + 0.5) * room / content.targets + kSpeed * i;
-      const double y = ((target * 7) % content.targets + 0.5) * height / content.targets;
-      stamp(frames_[static_cast<std::size_t>(i)].view(), x, y, counts);
+      const Place at = place_in_image(target, i);
+      stamp(frames_[static_cast<std::size_t>(i)].view(), at.x, at.y, counts);
     }
   }
 }
 
-const Image<std::uint16_t>& MemoryScene::frame(std::int64_t index) const {
-  const auto frames = static_cast<std::int64_t>(frames_.size());
+std::int64_t MemoryScene::image_at(std::int64_t index) const {
+  const std::int64_t frames = content_.frames;
   const std::int64_t period = 2 * frames - 2, phase = index % period;
-  return frames_[static_cast<std::size_t>(phase < frames ? phase : period - phase)];
+  return phase < frames ? phase : period - phase;
+}
+
+MemoryScene::Place MemoryScene::place_in_image(int target, std::int64_t image) const {
+  const double room = width_ - kSpeed * content_.frames;
+  return {(target + 0.5) * room / content_.targets + kSpeed * static_cast<double>(image),
+          ((target * 7) % content_.targets + 0.5) * height_ / content_.targets};
+}
+
+const Image<std::uint16_t>& MemoryScene::frame(std::int64_t index) const {
+  return frames_[static_cast<std::size_t>(image_at(index))];
+}
+
+MemoryScene::Place MemoryScene::place(int target, std::int64_t index) const {
+  return place_in_image(target, image_at(index));
 }
 
 std::optional<SourceFrame> MemorySource::next() {

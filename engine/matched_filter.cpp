@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/engine/matched_filter.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "glint/kernels/core/tiles.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
 
 namespace glint {
@@ -24,6 +27,25 @@ std::vector<float> energies(const PointSpread& spread, int length) {
   return energy;
 }
 
+/// From A - B / 2, P-PHD (13), to A over the root of B, where B is `energy`.
+void normalise(float* begin, const float* end, float energy) {
+  const float half = energy / 2, root = std::sqrt(energy);
+  for (float* value = begin; value != end; ++value) *value = (*value + half) / root;
+}
+
+/// A row of which every pixel has its own energy, but those that no side clips have one.
+void normalise_row(std::span<float> row, float energy_y, std::span<const float> energy_x,
+                   std::size_t margin) {
+  const auto one = [&](std::size_t x) { normalise(&row[x], &row[x] + 1, energy_y * energy_x[x]); };
+  const std::size_t left = std::min(margin, row.size());
+  const std::size_t right = std::max(left, row.size() - left);
+  for (std::size_t x = 0; x < left; ++x) one(x);
+  if (right > left) {
+    normalise(row.data() + left, row.data() + right, energy_y * energy_x[left]);
+  }
+  for (std::size_t x = right; x < row.size(); ++x) one(x);
+}
+
 }  // namespace
 
 MatchedFilter::MatchedFilter(double psf_sigma, const Device& device)
@@ -42,14 +64,13 @@ FrameView MatchedFilter::response(FrameView whitened) {
   args.intensity = 1;
   args.map = map;
   device_.run<PixelLikelihood>(args);
-  for (int y = 0; y < map.height; ++y) {
-    float* row = map.row(y);
-    const float ey = energy_y_[static_cast<std::size_t>(y)];
-    for (int x = 0; x < map.width; ++x) {
-      const float energy = ey * energy_x_[static_cast<std::size_t>(x)];
-      row[x] = (row[x] + energy / 2) / std::sqrt(energy);  // the map is A - B / 2, P-PHD (13)
+  const Tiles tiles{static_cast<std::size_t>(map.height), kRowTile};
+  device_.workers().for_tiles(tiles.tiles(), [&](std::size_t t) {
+    for (std::size_t y = tiles.begin(t); y < tiles.end(t); ++y) {
+      normalise_row({map.row(static_cast<int>(y)), energy_x_.size()}, energy_y_[y], energy_x_,
+                    static_cast<std::size_t>(spread_.half_width));
     }
-  }
+  });
   return map;
 }
 

@@ -2,6 +2,7 @@
 // What glint track writes: runs that repeat from their own files, and runs that fail.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -66,6 +67,38 @@ TEST(CliTrack, EveryFormatRepeatsItsRun) {
         glint(folder, "track scene:crossing --config " + (folder / name) + " --out " + again);
     EXPECT_EQ(result.code, 0) << name << ": " << result.err;
     EXPECT_EQ(content_of(first), content_of(again)) << name;
+  }
+}
+
+/// What a file says of tracks, without the settings and estimates of the run in its head: a run of
+/// two trackers has those of both.
+std::string said_of_tracks(const std::string& path) {
+  const std::string content = content_of(path);
+  if (path.ends_with(".csv")) return content.substr(content.find("\nframe,"));
+  return content.substr(content.find('\n') + 1);
+}
+
+// Points are found in the frames for one of them and not for the other.
+TEST(CliTrack, TrackersSideBySideWriteWhatTheyWriteAlone) {
+  const Folder folder;
+  const auto track = [&](const std::string& arguments, const std::string& to) {
+    const std::string outs = " --out " + (folder / to) + ".csv --out " + (folder / to) + ".jsonl";
+    const Result result = glint(
+        folder, "track scene:ir-clip --set scenes.ir-clip.frames=24 --quiet " + arguments + outs);
+    ASSERT_EQ(result.code, 0) << result.err;
+  };
+  const std::string points = " --tracker pmht-imm --set points.threshold=4";
+  track("--threads 2 --tracker mm-phd", "alone.mm-phd");
+  track("--threads 2" + points, "alone.pmht-imm");
+  for (const std::string threads : {"1", "2"}) {
+    track("--threads " + threads + " --tracker mm-phd" + points, "both");
+    for (const std::string file :
+         {"mm-phd.csv", "mm-phd.jsonl", "pmht-imm.csv", "pmht-imm.jsonl"}) {
+      const std::string said = said_of_tracks(folder / ("both." + file));
+      EXPECT_GT(std::ranges::count(said, '\n'), 20) << file;
+      EXPECT_EQ(said, said_of_tracks(folder / ("alone." + file)))
+          << file << ", threads " << threads;
+    }
   }
 }
 
