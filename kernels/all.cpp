@@ -27,7 +27,7 @@ KernelEntry entry() {
 
 std::span<const KernelEntry> all_kernels() {
   static const std::array kAll{
-      KernelEntry{"prepare_frame", &prepare_frame_trials},
+      KernelEntry{"prepare_frame", &prepare_frame_trials, true},
       entry<PixelLikelihood>(),
       entry<ParticleLikelihood>(),
       entry<Propagate>(),

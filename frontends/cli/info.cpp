@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
 
 #include "glint/engine/experiments/experiment.hpp"
@@ -55,7 +56,9 @@ void print_info() {
   for (const KernelEntry& kernel : all_kernels()) {
     if (kernel.on_egl) fmt::print(" {}", kernel.name);
   }
-  fmt::print("; an egl device runs the others on tbb");
+  if (!std::ranges::all_of(all_kernels(), &KernelEntry::on_egl)) {
+    fmt::print("; an egl device runs the others on tbb");
+  }
   fmt::print("\ninputs            {}\n", video_support());
   print_entries("trackers", all_trackers());
   print_entries("scenes", all_scenes());

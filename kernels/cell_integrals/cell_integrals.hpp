@@ -40,6 +40,7 @@ struct SumCells {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 /// A Gaussian target as a histogram sees it.
@@ -109,6 +110,7 @@ struct CellIntegrals {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
   static std::vector<std::unique_ptr<Trial>> trials();
 };
 

@@ -79,6 +79,9 @@ Api load_api(const Egl& egl) {
   load(api.GetProgramInfoLog, "glGetProgramInfoLog");
   load(api.DeleteProgram, "glDeleteProgram");
   load(api.UseProgram, "glUseProgram");
+  load(api.ProgramParameteri, "glProgramParameteri");
+  load(api.GetProgramBinary, "glGetProgramBinary");
+  load(api.ProgramBinary, "glProgramBinary");
   load(api.GenBuffers, "glGenBuffers");
   load(api.DeleteBuffers, "glDeleteBuffers");
   load(api.BindBuffer, "glBindBuffer");
@@ -88,6 +91,7 @@ Api load_api(const Egl& egl) {
   load(api.UnmapBuffer, "glUnmapBuffer");
   load(api.DispatchCompute, "glDispatchCompute");
   load(api.MemoryBarrier, "glMemoryBarrier");
+  load(api.Finish, "glFinish");
   return api;
 }
 

@@ -38,6 +38,8 @@ struct Api {
   static constexpr Enum kVendor = 0x1F00, kRenderer = 0x1F01, kVersion = 0x1F02,
                         kExtensions = 0x1F03, kNumExtensions = 0x821D;
   static constexpr Enum kComputeShader = 0x91B9, kCompileStatus = 0x8B81, kLinkStatus = 0x8B82;
+  static constexpr Enum kNumProgramFormats = 0x87FE, kProgramBinaryLength = 0x8741,
+                        kProgramRetrievable = 0x8257;
   static constexpr Enum kStorageBuffer = 0x90D2, kCopyBuffer = 0x8F37, kDynamicCopy = 0x88EA;
   static constexpr Enum kMaxStorageBlock = 0x90DE;
   static constexpr unsigned kMapRead = 1, kMapWrite = 2, kMapInvalidate = 4;
@@ -68,6 +70,9 @@ struct Api {
   void (*GetProgramInfoLog)(unsigned program, int size, int* length, char* log);
   void (*DeleteProgram)(unsigned program);
   void (*UseProgram)(unsigned program);
+  void (*ProgramParameteri)(unsigned program, Enum name, int value);
+  void (*GetProgramBinary)(unsigned program, int size, int* length, Enum* format, void* binary);
+  void (*ProgramBinary)(unsigned program, Enum format, const void* binary, int length);
 
   void (*GenBuffers)(int count, unsigned* buffers);
   void (*DeleteBuffers)(int count, const unsigned* buffers);
@@ -78,6 +83,7 @@ struct Api {
   unsigned char (*UnmapBuffer)(Enum target);
   void (*DispatchCompute)(unsigned x, unsigned y, unsigned z);
   void (*MemoryBarrier)(unsigned bits);
+  void (*Finish)();
 };
 
 /// Opens libEGL, which stays open. Throws std::runtime_error with the remedy where there is none.

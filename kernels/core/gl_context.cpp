@@ -144,7 +144,8 @@ void Context::serve(const Egl& egl, Candidate candidate) {
     const Current current(egl, candidate);
     const Api api = load_api(egl);
     device_ = device_of(egl, api, candidate, device_.number);
-    Queue queue(api, device_, kDebug != 0);
+    const std::string driver = device_.vendor + '\n' + device_.renderer + '\n' + device_.driver;
+    Queue queue(api, device_, ProgramCache(ProgramCache::user_folder(), driver), kDebug != 0);
     opened(nullptr);
     serve_jobs(queue);
   } catch (...) {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
 #include <limits>
-#include <stdexcept>
+#include <utility>
 
 namespace glint::gl {
 namespace {
@@ -32,7 +33,8 @@ Buffer::~Buffer() {
   if (queue_ != nullptr) queue_->pool_.push_back({id_, capacity_});
 }
 
-Queue::Queue(const Api& api, const EglDevice& device, bool debug) : api_(api), device_(device) {
+Queue::Queue(const Api& api, const EglDevice& device, ProgramCache cache, bool debug)
+    : api_(api), device_(device), programs_(api, device, std::move(cache)) {
   std::int64_t most = 0;
   api_.GetInteger64v(Api::kMaxStorageBlock, &most);
   constexpr std::int64_t kLargest = std::numeric_limits<std::int32_t>::max();
@@ -43,19 +45,11 @@ Queue::Queue(const Api& api, const EglDevice& device, bool debug) : api_(api), d
   api_.DebugMessageCallback(&on_debug, this);
 }
 
-Queue::~Queue() {
-  for (const auto& [name, program] : programs_) api_.DeleteProgram(program);
-  drop_pool();
-}
+Queue::~Queue() { drop_pool(); }
 
 void Queue::on_debug(Enum, Enum type, unsigned, Enum, int, const char* message, const void* user) {
   auto* queue = static_cast<Queue*>(const_cast<void*>(user));
   if (type == Api::kDebugError && queue->debug_error_.empty()) queue->debug_error_ = message;
-}
-
-void Queue::fail(const std::string& what) const {
-  throw std::runtime_error("egl:" + std::to_string(device_.number) + " (" + device_.renderer +
-                           "): " + what);
 }
 
 void Queue::check(const std::string& doing) {
@@ -108,30 +102,44 @@ void Queue::drop_pool() {
   pool_.clear();
 }
 
+void Queue::timed(double& seconds, FunctionRef<void()> work) {
+  if (!timed_) return work();
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  api_.Finish();
+  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 void Queue::write_bytes(const Buffer& to, std::size_t offset, std::size_t bytes,
                         FunctionRef<void(void*)> fill) {
   if (bytes == 0) return;
-  api_.BindBuffer(Api::kCopyBuffer, to.id_);
-  void* at =
-      api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(offset),
-                          static_cast<std::ptrdiff_t>(bytes), Api::kMapWrite | Api::kMapInvalidate);
-  check("while sending " + size_text(bytes));
-  if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
-  fill(at);
-  api_.UnmapBuffer(Api::kCopyBuffer);
+  traffic_.uploaded += bytes;
+  timed(traffic_.upload, [&] {
+    api_.BindBuffer(Api::kCopyBuffer, to.id_);
+    void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(offset),
+                                   static_cast<std::ptrdiff_t>(bytes),
+                                   Api::kMapWrite | Api::kMapInvalidate);
+    check("while sending " + size_text(bytes));
+    if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
+    fill(at);
+    api_.UnmapBuffer(Api::kCopyBuffer);
+  });
 }
 
 void Queue::read_bytes(const Buffer& from, std::size_t offset, std::size_t bytes,
                        FunctionRef<void(const void*)> copy) {
   if (bytes == 0) return;
-  api_.MemoryBarrier(Api::kAllBarriers);
-  api_.BindBuffer(Api::kCopyBuffer, from.id_);
-  const void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(offset),
-                                       static_cast<std::ptrdiff_t>(bytes), Api::kMapRead);
-  check("while reading " + size_text(bytes));
-  if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
-  copy(at);
-  api_.UnmapBuffer(Api::kCopyBuffer);
+  traffic_.read += bytes;
+  timed(traffic_.read_back, [&] {
+    api_.MemoryBarrier(Api::kAllBarriers);
+    api_.BindBuffer(Api::kCopyBuffer, from.id_);
+    const void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(offset),
+                                         static_cast<std::ptrdiff_t>(bytes), Api::kMapRead);
+    check("while reading " + size_text(bytes));
+    if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
+    copy(at);
+    api_.UnmapBuffer(Api::kCopyBuffer);
+  });
 }
 
 std::uint32_t Queue::sum_before(const Buffer& counts, std::size_t count) {
@@ -155,42 +163,23 @@ void Queue::dispatch(const Shader& shader, std::string_view pass, std::size_t it
   const std::size_t groups = (items + kGroup - 1) / kGroup;
   const std::size_t columns = std::min(groups, kMaxGroups);
   const std::size_t rows = (groups + columns - 1) / columns;
-  api_.DispatchCompute(static_cast<unsigned>(columns), static_cast<unsigned>(rows), 1);
-  api_.MemoryBarrier(Api::kAllBarriers);
+  timed(traffic_.compute, [&] {
+    api_.DispatchCompute(static_cast<unsigned>(columns), static_cast<unsigned>(rows), 1);
+    api_.MemoryBarrier(Api::kAllBarriers);
+  });
   check("in " + std::string(shader.name) + "." + std::string(pass));
 }
 
 unsigned Queue::program(const Shader& shader, std::string_view pass) {
-  const std::string name = std::string(shader.name) + '.' + std::string(pass);
-  const auto found = programs_.find(name);
-  if (found != programs_.end()) return found->second;
-  return programs_.emplace(name, built(shader, pass)).first->second;
-}
-
-unsigned Queue::built(const Shader& shader, std::string_view pass) {
-  const std::string entry = "\nvoid main() { " + std::string(pass) + "(); }\n";
-  const std::array<const char*, 2> text{shader.text, entry.c_str()};
-  const unsigned compiled = api_.CreateShader(Api::kComputeShader);
-  api_.ShaderSource(compiled, static_cast<int>(text.size()), text.data(), nullptr);
-  api_.CompileShader(compiled);
-  std::array<char, 2048> log{};
-  std::int32_t ok = 0;
-  api_.GetShaderiv(compiled, Api::kCompileStatus, &ok);
-  if (ok == 0) api_.GetShaderInfoLog(compiled, log.size() - 1, nullptr, log.data());
-  const unsigned program = api_.CreateProgram();
-  if (ok != 0) {
-    api_.AttachShader(program, compiled);
-    api_.LinkProgram(program);
-    api_.GetProgramiv(program, Api::kLinkStatus, &ok);
-    if (ok == 0) api_.GetProgramInfoLog(program, log.size() - 1, nullptr, log.data());
+  // What the driver says while a program is built is no error of the work that waits for it.
+  try {
+    const unsigned id = programs_.of(shader, pass);
+    debug_error_.clear();
+    return id;
+  } catch (...) {
+    debug_error_.clear();
+    throw;
   }
-  api_.DeleteShader(compiled);
-  if (ok != 0) return program;
-  api_.DeleteProgram(program);
-  api_.GetError();  // the log says more
-  debug_error_.clear();
-  fail(std::string(shader.name) + "." + std::string(pass) + " does not compile: " + log.data() +
-       "; update the driver or use --device tbb");
 }
 
 }  // namespace glint::gl

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,14 +15,9 @@
 #include "glint/kernels/core/frame.hpp"
 #include "glint/kernels/core/function_ref.hpp"
 #include "glint/kernels/core/gl_api.hpp"
+#include "glint/kernels/core/gl_programs.hpp"
 
 namespace glint::gl {
-
-/// GLSL that the build embeds: functions without arguments, each of which is a pass.
-struct Shader {
-  std::string_view name;
-  const char* text;
-};
 
 class Queue;
 
@@ -61,12 +55,18 @@ ImageView<T> rows(const ImageView<T>& image, int first, int last) {
   return {image.row(first), image.width, last - first, image.pitch};
 }
 
+/// Wall clock [s] and bytes of what a queue did while it was timed.
+struct Traffic {
+  double upload = 0, compute = 0, read_back = 0;
+  std::size_t uploaded = 0, read = 0;
+};
+
 /// What kernels say to a context, on its thread only. Work is done in the order that it is given;
 /// reading waits for it. Every function throws std::runtime_error that names the device and the
 /// remedy if memory runs out, the context is lost or a shader does not compile.
 class Queue {
  public:
-  Queue(const Api& api, const EglDevice& device, bool debug);
+  Queue(const Api& api, const EglDevice& device, ProgramCache cache, bool debug);
   ~Queue();
   Queue(const Queue&) = delete;
   Queue& operator=(const Queue&) = delete;
@@ -75,6 +75,11 @@ class Queue {
   std::size_t max_bytes() const { return max_bytes_; }
   /// Makes the limit smaller than the driver's.
   void limit(std::size_t bytes) { max_bytes_ = std::min(max_bytes_, bytes); }
+
+  /// Starts to keep the times of the queue's work, from nothing, or stops. While they are kept
+  /// every piece of work is waited for, so that each has its own time and none overlaps another.
+  void time_traffic(bool timed) { timed_ = timed, traffic_ = {}; }
+  const Traffic& traffic() const { return traffic_; }
 
   /// Uninitialised memory for `count` values.
   template <class T>
@@ -93,16 +98,23 @@ class Queue {
     write_bytes(to, first * sizeof(T), values.size_bytes(),
                 [&](void* at) { std::copy(values.begin(), values.end(), static_cast<T*>(at)); });
   }
-  /// Rows of an image without the padding between them.
+  /// Sets the buffer's values from number `first` on to an image's rows, without the padding
+  /// between them.
   template <class T>
-  Buffer upload(ImageView<const T> image) {
+  void write(const Buffer& to, ImageView<const T> image, std::size_t first = 0) {
     const auto width = static_cast<std::size_t>(image.width);
-    const std::size_t count = width * static_cast<std::size_t>(image.height);
-    Buffer to = buffer<T>(count);
-    write_bytes(to, 0, count * sizeof(T), [&](void* at) {
+    const std::size_t bytes = width * static_cast<std::size_t>(image.height) * sizeof(T);
+    write_bytes(to, first * sizeof(T), bytes, [&](void* at) {
       auto* row = static_cast<T*>(at);
       for (int y = 0; y < image.height; ++y, row += width) std::copy_n(image.row(y), width, row);
     });
+  }
+  /// Rows of an image without the padding between them.
+  template <class T>
+  Buffer upload(ImageView<const T> image) {
+    Buffer to =
+        buffer<T>(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    write(to, image);
     return to;
   }
   /// Fills `values` from value number `first` of the buffer.
@@ -153,18 +165,20 @@ class Queue {
   void dispatch(const Shader& shader, std::string_view pass, std::size_t items,
                 const Buffer& parameters, std::initializer_list<const Buffer*> buffers);
   unsigned program(const Shader& shader, std::string_view pass);
-  unsigned built(const Shader& shader, std::string_view pass);
+  void timed(double& seconds, FunctionRef<void()> work);
   void check(const std::string& doing);
-  [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail(const std::string& what) const { gl::fail(device_, what); }
   static void on_debug(Enum source, Enum type, unsigned id, Enum severity, int length,
                        const char* message, const void* user);
 
   const Api& api_;
   const EglDevice& device_;
   std::size_t max_bytes_ = 0;
+  bool timed_ = false;
+  Traffic traffic_;
   std::vector<Free> pool_;
   std::vector<std::uint32_t> scratch_;
-  std::map<std::string, unsigned, std::less<>> programs_;
+  Programs programs_;
   std::string debug_error_;  ///< first message of the driver since the last check
 };
 

@@ -29,6 +29,7 @@ struct StackMedian {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 /// Spatial median on a lattice: of the 5x5 pixels that lie 0, +-spacing, +-2 spacing away along
@@ -45,6 +46,7 @@ struct SpatialMedian {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 }  // namespace glint

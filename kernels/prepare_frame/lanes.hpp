@@ -5,6 +5,7 @@
 
 #include "glint/kernels/core/isa.hpp"
 #include "glint/kernels/prepare_frame/median_network.hpp"
+#include "glint/kernels/prepare_frame/whiten.hpp"
 
 namespace glint {
 
@@ -68,6 +69,9 @@ struct WhitenPass {
   std::ptrdiff_t noise_pitch;
   int noise_step;
 };
+
+/// What a call of Whiten comes to.
+WhitenPass whiten_pass(const Whiten::Args& args);
 
 /// A frame compared with another that is moved by (ix + ax, iy + ay), 0 <= ax, ay < 1.
 struct ShiftPass {

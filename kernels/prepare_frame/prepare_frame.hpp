@@ -37,6 +37,7 @@ struct ToGrey {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 /// The trials of all kernels of this folder.

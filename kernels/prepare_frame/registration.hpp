@@ -28,6 +28,7 @@ struct Halve {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 /// Translation of one frame against another: exhaustive search of the smallest mean absolute
@@ -44,6 +45,7 @@ struct EstimateShift {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 /// The image moved by a translation, bilinear: moved(x, y) = image(x + dx, y + dy); NaN where the
@@ -58,6 +60,7 @@ struct ShiftImage {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 }  // namespace glint

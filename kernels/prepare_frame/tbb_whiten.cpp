@@ -6,6 +6,7 @@
 
 #include "glint/kernels/core/tiles.hpp"
 #include "glint/kernels/prepare_frame/lanes.hpp"
+#include "glint/kernels/prepare_frame/residuals.hpp"
 #include "glint/kernels/prepare_frame/streaming.hpp"
 #include "glint/kernels/prepare_frame/whiten.hpp"
 
@@ -58,29 +59,15 @@ float median_of(const float* values, std::int32_t* keys, int n, const PrepareFra
   return (value_of(lower) + value_of(upper)) * 0.5F;
 }
 
-/// Known residuals on the grid; returns their number.
-int gather(const RobustSpread::Args& args, float* residuals) {
-  const int step = RobustSpread::step(args.image.width, args.image.height);
-  int n = 0;
-  for (int y = 0; y < args.image.height; y += step) {
-    const float* image = args.image.row(y);
-    const float* background = args.background.empty() ? nullptr : args.background.row(y);
-    for (int x = 0; x < args.image.width; x += step) {
-      const float r = image[x] - (background == nullptr ? 0 : background[x]);
-      residuals[n] = r;
-      n += std::isnan(r) ? 0 : 1;
-    }
-  }
-  return n;
-}
-
 float energy_scale(const Whiten::Args& args) {
   const double width = 2.0 * args.ring_outer + 1;
   const double most = width * width * args.ring_clip * args.ring_clip;
   return static_cast<float>(std::exp2(std::floor(std::log2(0x1p30 / most))));
 }
 
-WhitenPass make_pass(const Whiten::Args& args) {
+}  // namespace
+
+WhitenPass whiten_pass(const Whiten::Args& args) {
   const float scale = energy_scale(args);
   WhitenPass pass{};
   pass.image = args.image.data, pass.image_pitch = args.image.pitch;
@@ -106,8 +93,6 @@ WhitenPass make_pass(const Whiten::Args& args) {
   return pass;
 }
 
-}  // namespace
-
 void BackgroundStructure::tbb(const Args& args, Workers& workers) {
   const StructurePass pass{args.background.data,
                            args.background.pitch,
@@ -125,9 +110,8 @@ void RobustSpread::tbb(const Args& args, Workers& workers) {
   const auto& lanes = prepare_frame_lanes(workers.isa());
   std::vector<float> own;
   std::vector<float>& workspace = args.workspace == nullptr ? own : *args.workspace;
-  workspace.resize(kSamples + 1);
   std::int32_t keys[kSamples];
-  const int n = gather(args, workspace.data());
+  const int n = prepare_frame::gather_residuals(args, workspace);
   *args.spread = {};
   if (n == 0) return;
   const float median = median_of(workspace.data(), keys, n, lanes);
@@ -140,7 +124,7 @@ void RobustSpread::tbb(const Args& args, Workers& workers) {
 }
 
 void Whiten::tbb(const Args& args, Workers& workers) {
-  const WhitenPass pass = make_pass(args);
+  const WhitenPass pass = whiten_pass(args);
   const auto& lanes = prepare_frame_lanes(workers.isa());
   for_blocks(pass.width, pass.height, workers,
              [&](int x0, int x1, int y0, int y1) { lanes.whiten(pass, x0, x1, y0, y1); });

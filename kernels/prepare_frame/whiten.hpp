@@ -21,6 +21,7 @@ struct BackgroundStructure {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 struct Spread {
@@ -44,6 +45,7 @@ struct RobustSpread {
   static int step(int width, int height);
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 enum class Polarity {
@@ -75,6 +77,7 @@ struct Whiten {
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
+  static void egl(const Args& args, gl::Context& context);
 };
 
 }  // namespace glint

@@ -53,7 +53,7 @@ TEST(CliEgl, InfoListsDevicesAndWhichKernelsRunThere) {
   const Result info = glint(folder, "info");
   EXPECT_EQ(info.code, 0) << info.err;
   EXPECT_TRUE(has(info.out, device.description())) << info.out;
-  EXPECT_TRUE(has(info.out, "of them on egl  pixel_likelihood")) << info.out;
+  EXPECT_TRUE(has(info.out, "of them on egl  prepare_frame pixel_likelihood")) << info.out;
 }
 
 TEST(CliEgl, TracksOnTheDevice) {

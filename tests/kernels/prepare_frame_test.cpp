@@ -9,6 +9,10 @@
 #include <cmath>
 #include <limits>
 
+#include "egl.hpp"
+#include "glint/kernels/core/gl_context.hpp"
+#include "glint/kernels/core/gl_queue.hpp"
+#include "glint/kernels/parity.hpp"
 #include "glint/kernels/prepare_frame/median_network.hpp"
 #include "glint/kernels/prepare_frame/trial_images.hpp"
 
@@ -270,6 +274,28 @@ TEST_P(PrepareFrame, ShiftImageMovesWholePixelsExactlyAndKnowsNothingBeyond) {
   EXPECT_EQ(moved.view()(17, 1), image.view()(19, 0));
   EXPECT_TRUE(std::isnan(moved.view()(18, 1)));
   EXPECT_TRUE(std::isnan(moved.view()(4, 0)));
+}
+
+/// All but the many trials of to_grey, and those whose ring alone has too many wide rows.
+std::vector<std::unique_ptr<Trial>> window_trials() {
+  Trials trials;
+  add_background_trials(trials);
+  add_registration_trials(trials);
+  add_whiten_trials(trials);
+  std::erase_if(trials,
+                [](const auto& t) { return t->description().starts_with("whiten 1025x9"); });
+  return trials;
+}
+
+TEST(EglPrepareFrame, GivesTheSameBitsInBandsOfAFewRows) {
+  GLINT_NEEDS_EGL(device);
+  constexpr std::size_t kBytes = std::size_t{40} << 10;
+  const Device small = Device::egl(device.context().device().number);
+  small.context().run([](gl::Queue& queue) { queue.limit(kBytes); });
+  const KernelEntry entry{"prepare_frame", &window_trials, true};
+  for (const ParityRow& row : check_parity(entry, std::array{device, small})) {
+    EXPECT_TRUE(row.ok()) << description(row);
+  }
 }
 
 }  // namespace
