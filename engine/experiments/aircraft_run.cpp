@@ -32,12 +32,12 @@ Scan scan_of(const Scene& scene, std::uint64_t seed, int frame, const Device& de
 }
 
 template <class T, class Config>
-AircraftRun run(int scenario, const Config& config, std::uint64_t seed, AircraftStart start) {
+AircraftRun run(int scenario, const Config& config, std::uint64_t seed, AircraftStart start,
+                const Device& device) {
   AircraftScene settings;
   settings.scenario = scenario;
   settings.variant = static_cast<int>(seed);
   const Scene scene = make_scene(settings);
-  const Device device = Device::tbb(1);
   T tracker(config, device, seed);
   const TruthPoint first = truth_at(scene, 0)[0];
   const TruthPoint second =
@@ -61,13 +61,13 @@ AircraftRun run(int scenario, const Config& config, std::uint64_t seed, Aircraft
 }  // namespace
 
 AircraftRun run_aircraft(int scenario, const HPmhtConfig& config, std::uint64_t seed,
-                         AircraftStart start) {
-  return run<HPmht>(scenario, config, seed, start);
+                         AircraftStart start, const Device& device) {
+  return run<HPmht>(scenario, config, seed, start, device);
 }
 
 AircraftRun run_aircraft(int scenario, const ImmPdaAiConfig& config, std::uint64_t seed,
-                         AircraftStart start) {
-  return run<ImmPdaAi>(scenario, config, seed, start);
+                         AircraftStart start, const Device& device) {
+  return run<ImmPdaAi>(scenario, config, seed, start, device);
 }
 
 }  // namespace glint

@@ -17,10 +17,10 @@ struct AircraftRun {
 /// start from, its velocity.
 enum class AircraftStart { two_scans, one_scan };
 
-/// One thread. The seed also chooses the variant of the scene.
+/// The seed also chooses the variant of the scene.
 AircraftRun run_aircraft(int scenario, const HPmhtConfig& config, std::uint64_t seed,
-                         AircraftStart start = AircraftStart::two_scans);
+                         AircraftStart start, const Device& device);
 AircraftRun run_aircraft(int scenario, const ImmPdaAiConfig& config, std::uint64_t seed,
-                         AircraftStart start = AircraftStart::two_scans);
+                         AircraftStart start, const Device& device);
 
 }  // namespace glint

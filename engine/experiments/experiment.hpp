@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "glint/kernels/core/device.hpp"
 #include "glint/kernels/core/workers.hpp"
 
 namespace glint {
@@ -50,6 +51,9 @@ struct ExperimentOptions {
   int runs = 0;  ///< 0 = the experiment's own number
   std::uint64_t seed = 1;
   std::string data;  ///< folder of recorded data, for experiments that need one
+  /// Where trackers of frames run their kernels, for entries `on_device`; by default each run has a
+  /// thread of the processor.
+  std::optional<Device> device = {};
   /// Called with runs done and runs in all, from any thread, one call at a time.
   std::function<void(int done, int total)> progress;
 };
@@ -59,6 +63,7 @@ struct ExperimentEntry {
   std::string_view name, summary;
   int runs;  ///< that the bands hold for
   ExperimentResult (*run)(const ExperimentOptions& options, Workers& workers);
+  bool on_device = false;  ///< whether it can run on another device than a thread each
 };
 
 /// The one list of experiments that need no recorded data.

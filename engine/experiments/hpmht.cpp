@@ -20,7 +20,7 @@ struct Printed {
 struct Case {
   std::string name;
   int scenario;
-  std::function<AircraftRun(std::uint64_t seed)> run;
+  std::function<AircraftRun(std::uint64_t seed, const Device& device)> run;
   Printed paper;
   std::optional<Band> hit_band{}, deviation_band{};
 };
@@ -48,9 +48,11 @@ ImmPdaAiConfig imm_pda_ai(const char* threshold, double scale) {
 }
 
 template <class Config>
-std::function<AircraftRun(std::uint64_t)> runner(int scenario, Config config,
-                                                 AircraftStart start = AircraftStart::two_scans) {
-  return [=](std::uint64_t seed) { return run_aircraft(scenario, config, seed, start); };
+std::function<AircraftRun(std::uint64_t, const Device&)> runner(
+    int scenario, Config config, AircraftStart start = AircraftStart::two_scans) {
+  return [=](std::uint64_t seed, const Device& device) {
+    return run_aircraft(scenario, config, seed, start, device);
+  };
 }
 
 std::vector<double> column(const std::vector<AircraftRun>& runs, double AircraftRun::*value) {
@@ -63,9 +65,12 @@ std::vector<double> column(const std::vector<AircraftRun>& runs, double Aircraft
 std::vector<std::vector<AircraftRun>> run_all(const std::vector<Case>& cases,
                                               const ExperimentOptions& options, Workers& workers,
                                               ExperimentResult& result) {
-  auto runs = run_cases(
-      cases.size(), static_cast<std::size_t>(options.runs), workers, options.progress,
-      [&](std::size_t which, std::size_t run) { return cases[which].run(options.seed + run); });
+  auto runs =
+      run_cases(cases.size(), static_cast<std::size_t>(options.runs), workers, options.progress,
+                [&](std::size_t which, std::size_t run) {
+                  return cases[which].run(options.seed + run,
+                                          options.device ? *options.device : Device::tbb(1));
+                });
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& c = cases[i];
     result.rows.push_back(value_row(c.name, "hit on target [%]", column(runs[i], &AircraftRun::hit),

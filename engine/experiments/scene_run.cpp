@@ -74,7 +74,8 @@ Scan whitened_scan(const Scene& scene, std::uint64_t seed, int frame) {
 
 SceneRun run_scene(const Scene& scene, const TrackerSetup& setup, std::uint64_t seed,
                    const SceneRunOptions& options) {
-  const std::unique_ptr<Tracker> tracker = setup.make(Device::tbb(1), seed);
+  const std::unique_ptr<Tracker> tracker =
+      setup.make(options.device ? *options.device : Device::tbb(1), seed);
   TrackLog log;
   SceneRun run;
   for (int k = 0; k < scene.frames; ++k) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,13 +37,14 @@ struct SceneRun {
 struct SceneRunOptions {
   bool include_tentative = false;               ///< score tentative points too
   double (*observe)(const Tracker&) = nullptr;  ///< asked after every step
+  std::optional<Device> device = {};            ///< of the tracker; by default one thread
 };
 
 /// A scene's frame as trackers see it. What is rendered is the whitened frame: a scene's noise is
 /// known, and its unit is sigma.
 Scan whitened_scan(const Scene& scene, std::uint64_t seed, int frame);
 
-/// Scored at a cut-off of 5 px and order 2, P-PHD's accuracy of initiation. One thread. Throws
+/// Scored at a cut-off of 5 px and order 2, P-PHD's accuracy of initiation. Throws
 /// ConfigError for a setup that does not exist.
 SceneRun run_scene(const Scene& scene, const TrackerSetup& setup, std::uint64_t seed,
                    const SceneRunOptions& options = {});

@@ -19,7 +19,7 @@ namespace glint::cli {
 namespace {
 
 struct Request {
-  std::string name, out;
+  std::string name, out, device = "auto";
   ExperimentOptions options;
   int threads = 0;
   bool json = false;
@@ -96,12 +96,26 @@ std::vector<ExperimentEntry> experiments() {
   return list;
 }
 
+/// Nothing for a thread of the processor each.
+std::optional<Device> device_of(const Request& request, const ExperimentEntry& entry) {
+  if (request.device == "auto" || request.device == "tbb") return std::nullopt;
+  if (!entry.on_device) {
+    throw UsageError(request.name + " runs on auto or tbb only, got --device " + request.device);
+  }
+  try {
+    return Device::named(request.device, request.threads);
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(e.what());
+  }
+}
+
 void run(const Request& request) {
   const std::vector<ExperimentEntry> known = experiments();
   const ExperimentEntry& entry = find_experiment(request.name, known);
   const std::filesystem::path folder =
       request.out.empty() ? std::filesystem::path() : output_folder(request.out);
   ExperimentOptions options = request.options;
+  options.device = device_of(request, entry);
   options.progress = run_progress();
   Workers workers(request.threads);
   const ExperimentResult result = run_experiment(entry, options, workers);
@@ -136,6 +150,10 @@ void add_experiment(CLI::App& app) {
       ->check(CLI::Range(0, 1000000));
   command->add_option("--seed", request->options.seed, "Seed of the first run")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()))
+      ->capture_default_str();
+  command
+      ->add_option("--device", request->device,
+                   "Where phd-* and hpmht-* run their kernels: auto, serial, tbb, egl or egl:N")
       ->capture_default_str();
   command->add_option("--data", request->options.data,
                       "Folder of recorded data, where one is needed");
