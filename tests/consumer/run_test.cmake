@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCXX=... -DFLAGS=... -P run_test.cmake
-# Installs the build into WORK, then builds and runs the consumer twice: by find_package, and by
-# pkg-config.
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCC=... -DCXX=... -DFLAGS=... [-DPACKAGES=ON] -P run_test.cmake
+# Puts the build's installation, or with PACKAGES the contents of its Debian packages, into WORK, then
+# builds and runs the consumers in C++ and C, by find_package and by pkg-config.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(failed)
@@ -11,23 +11,61 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
+# The packages' names carry a version and an architecture; each name is written once.
+function(unpack)
+  run(${CMAKE_COMMAND} -E chdir ${BUILD} cpack -G DEB -B ${WORK}/packages)
+  foreach(name libglint0.1 libglint-dev glint-tools)
+    file(GLOB package ${WORK}/packages/${name}_*.deb)
+    list(LENGTH package count)
+    if(NOT count EQUAL 1)
+      message(FATAL_ERROR "one package ${name} is wanted, there are: ${package}")
+    endif()
+    run(dpkg-deb --info ${package})
+    if(NOT output MATCHES "Depends: [^\n]*libtbb")
+      message(FATAL_ERROR "${name} does not ask for oneTBB:\n${output}")
+    endif()
+    run(dpkg-deb -x ${package} ${WORK}/unpacked)
+  endforeach()
+  file(RENAME ${WORK}/unpacked/usr ${WORK}/prefix)
+  run(${WORK}/prefix/bin/glint info)
+endfunction()
+
+function(install)
+  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+  # Moved after the install: nothing in it may point back at where it was.
+  file(RENAME ${WORK}/installed ${WORK}/prefix)
+endfunction()
+
+function(by_find_package)
+  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_C_FLAGS=${FLAGS}"
+    "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Release)
+  run(${CMAKE_COMMAND} --build ${WORK}/build)
+  foreach(consumer consumer consumer_shared consumer_c)
+    run(${WORK}/build/${consumer})
+    message(STATUS "find_package, ${consumer}: ${output}")
+  endforeach()
+endfunction()
+
+# by_pkg_config(NAME COMPILER SOURCE [options])
+function(by_pkg_config name compiler source)
+  file(GLOB_RECURSE pc ${WORK}/prefix/*/${name}.pc)
+  get_filename_component(pc_dir "${pc}" DIRECTORY)
+  get_filename_component(lib_dir "${pc_dir}" DIRECTORY)
+  set(ENV{PKG_CONFIG_PATH} ${pc_dir})
+  run(pkg-config --cflags --libs ${name})
+  separate_arguments(options UNIX_COMMAND "${FLAGS} ${ARGN} ${SOURCE}/${source} ${output}")
+  run(${compiler} -o ${WORK}/${name} ${options} -Wl,-rpath,${lib_dir})
+  run(${WORK}/${name})
+  message(STATUS "pkg-config ${name}: ${output}")
+endfunction()
+
 file(REMOVE_RECURSE ${WORK})
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
-# Moved after the install: nothing in it may point back at where it was.
-file(RENAME ${WORK}/installed ${WORK}/prefix)
-
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
-  -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Release)
-run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/consumer)
-message(STATUS "find_package: ${output}")
-
-file(GLOB_RECURSE pc ${WORK}/prefix/*/glint.pc)
-get_filename_component(pc_dir "${pc}" DIRECTORY)
-get_filename_component(lib_dir "${pc_dir}" DIRECTORY)
-set(ENV{PKG_CONFIG_PATH} ${pc_dir})
-run(pkg-config --cflags --libs glint)
-separate_arguments(options UNIX_COMMAND "${FLAGS} -std=c++20 ${SOURCE}/consumer.cpp ${output}")
-run(${CXX} -o ${WORK}/consumer ${options} -Wl,-rpath,${lib_dir})
-run(${WORK}/consumer)
-message(STATUS "pkg-config: ${output}")
+if(PACKAGES)
+  unpack()
+else()
+  install()
+endif()
+by_find_package()
+by_pkg_config(glint ${CXX} consumer.cpp -std=c++20)
+by_pkg_config(glint-c ${CC} consumer.c -std=c99)
