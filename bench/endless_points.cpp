@@ -11,7 +11,6 @@ namespace glint::bench {
 namespace {
 
 constexpr int kTargets = 40;
-constexpr double kPercent = 0.02;
 constexpr std::uint64_t kSeed = 1;
 
 // A sine of so much reach [px] and peak speed [px/frame] about `centre`.
@@ -34,12 +33,18 @@ Path wave_path(std::uint32_t target) {
 
 }  // namespace
 
-EndlessPoints::EndlessPoints(std::int64_t count) : count_(count) {
+EndlessPoints::EndlessPoints(std::int64_t count, double percent) : count_(count) {
   scene_.width = 1024, scene_.height = 256;
   for (std::uint32_t i = 0; i < kTargets; ++i) {
     scene_.targets.push_back({0, std::numeric_limits<int>::max(), 0, wave_path(i)});
   }
-  sensor_.clutter = PointSensor::clutter_of(scene_, kPercent);
+  sensor_.clutter = PointSensor::clutter_of(scene_, percent);
+}
+
+std::vector<Kinematics> EndlessPoints::starts() const {
+  std::vector<Kinematics> starts;
+  for (const ScriptedTarget& target : scene_.targets) starts.push_back(target.path(0));
+  return starts;
 }
 
 std::optional<SourceFrame> EndlessPoints::next() {

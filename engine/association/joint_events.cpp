@@ -2,37 +2,76 @@
 #include "glint/engine/association/joint_events.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
 namespace glint {
 namespace {
 
-std::vector<std::size_t> numbers(std::size_t count) {
-  std::vector<std::size_t> order(count);
+void number(std::vector<std::size_t>& order, std::size_t count) {
+  order.resize(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  return order;
 }
 
-JointEvents of_targets(const JointEvents& events) {
-  JointEvents empty;
-  empty.targets = events.targets;
-  return empty;
+double sum(std::span<const double> weights) {
+  return std::accumulate(weights.begin(), weights.end(), 0.0);
 }
 
 }  // namespace
+
+void JointEvents::begin(std::span<const std::uint32_t> of_targets) {
+  targets.assign(of_targets.begin(), of_targets.end());
+  choice.clear(), weight.clear();
+}
 
 void JointEvents::add(std::span<const std::uint32_t> hypotheses, double event_weight) {
   choice.insert(choice.end(), hypotheses.begin(), hypotheses.end());
   weight.push_back(event_weight);
 }
 
-JointEvents certain(std::uint32_t target) { return {{target}, {0}, {1}}; }
+void JointEvents::assign(const JointView& events) {
+  begin(events.targets);
+  choice.assign(events.choice.begin(), events.choice.end());
+  weight.assign(events.weight.begin(), events.weight.end());
+}
 
-JointEvents product(const JointEvents& a, const JointEvents& b) {
-  JointEvents both;
+void JointGroups::clear() {
+  ranges_.clear();
+  all_.begin({});
+}
+
+void JointGroups::add(const JointView& group) {
+  ranges_.push_back({all_.targets.size(), group.targets.size(), all_.choice.size(),
+                     all_.weight.size(), group.size()});
+  all_.targets.insert(all_.targets.end(), group.targets.begin(), group.targets.end());
+  all_.choice.insert(all_.choice.end(), group.choice.begin(), group.choice.end());
+  all_.weight.insert(all_.weight.end(), group.weight.begin(), group.weight.end());
+}
+
+void JointGroups::add_certain(std::uint32_t target) {
+  constexpr std::uint32_t kFirst = 0;
+  constexpr double kAll = 1;
+  add({std::span(&target, 1), std::span(&kFirst, 1), std::span(&kAll, 1)});
+}
+
+JointView JointGroups::operator[](std::size_t group) const {
+  const Range& r = ranges_[group];
+  return {std::span(all_.targets).subspan(r.first_target, r.targets),
+          std::span(all_.choice).subspan(r.first_choice, r.events * r.targets),
+          std::span(all_.weight).subspan(r.first_event, r.events)};
+}
+
+std::span<std::uint32_t> JointGroups::choice(std::size_t group) {
+  const Range& r = ranges_[group];
+  return std::span(all_.choice).subspan(r.first_choice, r.events * r.targets);
+}
+
+void product(const JointView& a, const JointView& b, JointEvents& both, JointWorkspace& memory) {
+  both.begin({});
   std::ranges::merge(a.targets, b.targets, std::back_inserter(both.targets));
-  std::vector<std::uint32_t> hypotheses(both.targets.size());
+  std::vector<std::uint32_t>& hypotheses = memory.hypotheses;
+  hypotheses.resize(both.targets.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t k = 0; k < b.size(); ++k) {
       std::size_t from_a = 0, from_b = 0;
@@ -43,29 +82,31 @@ JointEvents product(const JointEvents& a, const JointEvents& b) {
       both.add(hypotheses, a.weight[i] * b.weight[k]);
     }
   }
-  return both;
 }
 
-JointEvents project(const JointEvents& events, std::span<const std::size_t> columns) {
-  JointEvents some;
+void project(const JointView& events, std::span<const std::size_t> columns, JointEvents& some,
+             JointWorkspace& memory) {
+  some.begin({});
   for (const std::size_t c : columns) some.targets.push_back(events.targets[c]);
-  std::vector<std::uint32_t> hypotheses(columns.size());
+  std::vector<std::uint32_t>& hypotheses = memory.hypotheses;
+  hypotheses.resize(columns.size());
   for (std::size_t e = 0; e < events.size(); ++e) {
     for (std::size_t c = 0; c < columns.size(); ++c) hypotheses[c] = events.event(e)[columns[c]];
     some.add(hypotheses, events.weight[e]);
   }
-  merge_equal(some);
-  return some;
+  merge_equal(some, memory);
 }
 
-void merge_equal(JointEvents& events) {
-  std::vector<std::size_t> order = numbers(events.size());
+void merge_equal(JointEvents& events, JointWorkspace& memory) {
+  std::vector<std::size_t>& order = memory.order;
+  number(order, events.size());
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
     const auto x = events.event(a), y = events.event(b);
     const auto [i, k] = std::ranges::mismatch(x, y);
     return i != x.end() ? *i < *k : a < b;
   });
-  JointEvents merged = of_targets(events);
+  JointEvents& merged = memory.other;
+  merged.begin(events.targets);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const auto event = events.event(order[i]);
     if (i > 0 && std::ranges::equal(event, events.event(order[i - 1]))) {
@@ -74,25 +115,31 @@ void merge_equal(JointEvents& events) {
       merged.add(event, events.weight[order[i]]);
     }
   }
-  events = std::move(merged);
+  std::swap(events, merged);
 }
 
-void keep_best(JointEvents& events, std::size_t most, double least) {
-  const auto sum = [](const JointEvents& of) {
-    return std::accumulate(of.weight.begin(), of.weight.end(), 0.0);
-  };
-  std::vector<std::size_t> order = numbers(events.size());
-  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t e) { return events.weight[e]; });
-  const double all = sum(events);
+void keep_best(JointEvents& events, std::size_t most, double least, JointWorkspace& memory) {
+  std::vector<std::size_t>& order = memory.order;
+  number(order, events.size());
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+    const double x = events.weight[a], y = events.weight[b];
+    return x != y ? x > y : a < b;
+  });
+  const double all = sum(events.weight);
   std::size_t count = std::min(most, events.size());
   while (count > 1 && events.weight[order[count - 1]] < least * all) --count;
   order.resize(count);
   std::ranges::sort(order);
-  JointEvents best = of_targets(events);
-  for (const std::size_t e : order) best.add(events.event(e), events.weight[e]);
-  const double left = sum(best);
-  for (double& w : best.weight) w = left > 0 ? w / left : 1 / static_cast<double>(count);
-  events = std::move(best);
+  const std::size_t targets = events.targets.size();
+  for (std::size_t i = 0; i < count; ++i) {  // to the front: order[i] >= i
+    if (order[i] == i) continue;
+    std::ranges::copy(events.event(order[i]),
+                      events.choice.begin() + static_cast<std::ptrdiff_t>(i * targets));
+    events.weight[i] = events.weight[order[i]];
+  }
+  events.choice.resize(count * targets), events.weight.resize(count);
+  const double left = sum(events.weight);
+  for (double& w : events.weight) w = left > 0 ? w / left : 1 / static_cast<double>(count);
 }
 
 }  // namespace glint

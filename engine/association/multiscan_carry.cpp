@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the joint events of a scan become those that the next one begins with.
 #include <algorithm>
-#include <utility>
 
 #include "glint/engine/association/multiscan_jpda.hpp"
 
@@ -10,7 +9,6 @@ namespace glint {
 void MultiscanJpda::advance(std::span<const std::uint32_t> merged, int memory) {
   bond(memory);
   groups_.clear();
-  children_.resize(targets());
   for (const Cluster& cluster : clusters_) {
     if (!cluster.independent) {
       carry(cluster, merged);
@@ -18,7 +16,8 @@ void MultiscanJpda::advance(std::span<const std::uint32_t> merged, int memory) {
       for (const std::uint32_t t : cluster.before.targets) carry_apart(t, merged);
     }
   }
-  for (JointEvents& group : groups_) number_children(group);
+  prior_.clear(), children_.clear();
+  for (std::size_t g = 0; g < groups_.size(); ++g) number_children(g);
 }
 
 /// Targets that share a point stay together for a while.
@@ -37,57 +36,59 @@ void MultiscanJpda::bond(int memory) {
 /// The events before and of the scan become one list; those before that differ in nothing that is
 /// still told apart are one.
 void MultiscanJpda::carry(const Cluster& cluster, std::span<const std::uint32_t> merged) {
-  const JointEvents& before = cluster.before;
+  const JointView& before = cluster.before;
+  const ScanEvents::Group events = events_[cluster.events];
   const std::size_t targets = before.targets.size();
-  JointEvents merged_before, joint;
-  merged_before.targets = joint.targets = before.targets;
-  std::vector<std::uint32_t> hypotheses(targets);
-  const auto merge = [&](std::size_t e) {
-    for (std::size_t c = 0; c < targets; ++c) {
-      hypotheses[c] = merged[first_hypothesis_[before.targets[c]] + before.event(e)[c]];
-    }
-  };
-  for (std::size_t e = 0; e < before.size(); ++e) merge(e), merged_before.add(hypotheses, 1);
-  merge_equal(merged_before);
-  std::vector<std::size_t> into(before.size());
-  for (std::size_t e = 0; e < before.size(); ++e) {
-    merge(e);
-    while (!std::ranges::equal(merged_before.event(into[e]), hypotheses)) ++into[e];
-  }
-  std::vector<double> weights(merged_before.size());
-  for (std::size_t i = 0; i < cluster.events.size(); ++i) {
-    std::ranges::fill(weights, 0);
-    for (std::size_t e = 0; e < before.size(); ++e) {
-      weights[into[e]] += cluster.events.weights(i)[e];
-    }
-    for (std::size_t e = 0; e < weights.size(); ++e) {
+  merge_before(before, merged);
+  joint_.begin(before.targets);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    weights_.assign(merged_before_.size(), 0);
+    for (std::size_t e = 0; e < before.size(); ++e) weights_[into_[e]] += events.weights(i)[e];
+    for (std::size_t e = 0; e < weights_.size(); ++e) {
       for (std::size_t c = 0; c < targets; ++c) {
         const auto options = static_cast<std::uint32_t>(scan_[before.targets[c]].options());
-        hypotheses[c] = merged_before.event(e)[c] * options + cluster.events.options(i)[c];
+        hypotheses_[c] = merged_before_.event(e)[c] * options + events.options(i)[c];
       }
-      if (weights[e] > 0) joint.add(hypotheses, weights[e]);
+      if (weights_[e] > 0) joint_.add(hypotheses_, weights_[e]);
     }
   }
-  split(std::move(joint));
+  split(joint_);
+}
+
+/// Into merged_before_, with its number for each of `before` in into_.
+void MultiscanJpda::merge_before(const JointView& before, std::span<const std::uint32_t> merged) {
+  hypotheses_.resize(before.targets.size());
+  const auto merge = [&](std::size_t e) {
+    for (std::size_t c = 0; c < hypotheses_.size(); ++c) {
+      hypotheses_[c] = merged[first_hypothesis_[before.targets[c]] + before.event(e)[c]];
+    }
+  };
+  merged_before_.begin(before.targets);
+  for (std::size_t e = 0; e < before.size(); ++e) merge(e), merged_before_.add(hypotheses_, 1);
+  merge_equal(merged_before_, memory_);
+  into_.assign(before.size(), 0);
+  for (std::size_t e = 0; e < before.size(); ++e) {
+    merge(e);
+    while (!std::ranges::equal(merged_before_.event(into_[e]), hypotheses_)) ++into_[e];
+  }
 }
 
 void MultiscanJpda::carry_apart(std::uint32_t target, std::span<const std::uint32_t> merged) {
-  JointEvents own;
-  own.targets = {target};
+  part_.begin(std::span(&target, 1));
   const auto options = static_cast<std::uint32_t>(scan_[target].options());
   for (std::size_t h = 0; h < hypotheses(target); ++h) {
     for (std::uint32_t o = 0; o < options; ++o) {
       const std::uint32_t child = merged[first_hypothesis_[target] + h] * options + o;
-      own.add(std::span(&child, 1), posterior(target)[h * options + o]);
+      part_.add(std::span(&child, 1), posterior(target)[h * options + o]);
     }
   }
-  merge_equal(own);
-  keep_best(own, settings_.events, settings_.least);
-  groups_.push_back(std::move(own));
+  merge_equal(part_, memory_);
+  keep_best(part_, settings_.events, settings_.least, memory_);
+  groups_.add(part_.view());
 }
 
 /// Targets that shared no point of the window go their own ways.
-void MultiscanJpda::split(JointEvents&& events) {
+void MultiscanJpda::split(JointEvents& events) {
   for (const std::uint32_t t : events.targets) parent_[t] = t;
   for (const Bond& bond : bonds_) {
     if (std::ranges::binary_search(events.targets, bond.a) &&
@@ -95,35 +96,40 @@ void MultiscanJpda::split(JointEvents&& events) {
       join(bond.a, bond.b);
     }
   }
-  std::vector<std::size_t> columns;
   for (const std::uint32_t first : events.targets) {
     if (root(first) != first) continue;
-    columns.clear();
+    columns_.clear();
     for (std::size_t c = 0; c < events.targets.size(); ++c) {
-      if (root(events.targets[c]) == first) columns.push_back(c);
+      if (root(events.targets[c]) == first) columns_.push_back(c);
     }
-    groups_.push_back(columns.size() < events.targets.size() ? project(events, columns) : events);
-    keep_best(groups_.back(), settings_.events, settings_.least);
+    const bool all = columns_.size() == events.targets.size();
+    if (!all) project(events.view(), columns_, part_, memory_);
+    JointEvents& own = all ? events : part_;
+    keep_best(own, settings_.events, settings_.least, memory_);
+    groups_.add(own.view());
   }
 }
 
-void MultiscanJpda::number_children(JointEvents& group) {
-  const std::size_t targets = group.targets.size();
+void MultiscanJpda::number_children(std::size_t group) {
+  const JointView events = groups_[group];
+  const std::span<std::uint32_t> choices = groups_.choice(group);
+  const std::size_t targets = events.targets.size();
   for (std::size_t c = 0; c < targets; ++c) {
-    const std::uint32_t t = group.targets[c];
+    const std::uint32_t t = events.targets[c];
     const auto options = static_cast<std::uint32_t>(scan_[t].options());
-    std::vector<std::uint32_t> used;
-    for (std::size_t e = 0; e < group.size(); ++e) used.push_back(group.event(e)[c]);
-    std::ranges::sort(used);
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    children_[t].clear(), prior_[t].assign(used.size(), 0);
-    for (std::size_t e = 0; e < group.size(); ++e) {
-      std::uint32_t& choice = group.choice[e * targets + c];
-      choice = static_cast<std::uint32_t>(std::ranges::lower_bound(used, choice) - used.begin());
-      prior_[t][choice] += group.weight[e];
+    used_.clear();
+    for (std::size_t e = 0; e < events.size(); ++e) used_.push_back(events.event(e)[c]);
+    std::ranges::sort(used_);
+    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
+    own_[t] = {prior_.size(), used_.size()};
+    prior_.resize(prior_.size() + used_.size(), 0);
+    for (std::size_t e = 0; e < events.size(); ++e) {
+      std::uint32_t& choice = choices[e * targets + c];
+      choice = static_cast<std::uint32_t>(std::ranges::lower_bound(used_, choice) - used_.begin());
+      prior(t)[choice] += events.weight[e];
     }
-    for (std::size_t h = 0; h < used.size(); ++h) {
-      children_[t].push_back({used[h] / options, used[h] % options, prior_[t][h]});
+    for (std::size_t h = 0; h < used_.size(); ++h) {
+      children_.push_back({used_[h] / options, used_[h] % options, prior(t)[h]});
     }
   }
 }

@@ -24,24 +24,35 @@ double log_mean(std::span<const double> weights, const F& value) {
 
 }  // namespace
 
-void MultiscanJpda::clear() { prior_.clear(), groups_.clear(), bonds_.clear(); }
+void MultiscanJpda::clear() {
+  own_.clear(), prior_.clear(), children_.clear(), groups_.clear(), bonds_.clear();
+}
 
 void MultiscanJpda::add() {
-  groups_.push_back(certain(static_cast<std::uint32_t>(targets())));
-  prior_.push_back({1});
+  groups_.add_certain(static_cast<std::uint32_t>(targets()));
+  own_.push_back({prior_.size(), 1});
+  prior_.push_back(1), children_.push_back({0, 0, 1});
 }
 
 void MultiscanJpda::remove(std::size_t target) {
-  prior_.erase(prior_.begin() + static_cast<std::ptrdiff_t>(target));
-  for (JointEvents& group : groups_) {
-    std::vector<std::size_t> others;
+  own_.erase(own_.begin() + static_cast<std::ptrdiff_t>(target));
+  others_.clear();
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const JointView group = groups_[g];
+    columns_.clear();
     for (std::size_t c = 0; c < group.targets.size(); ++c) {
-      if (group.targets[c] != target) others.push_back(c);
+      if (group.targets[c] != target) columns_.push_back(c);
     }
-    if (others.size() < group.targets.size()) group = project(group, others);
-    for (std::uint32_t& t : group.targets) t -= t > target;
+    if (columns_.empty()) continue;
+    if (columns_.size() < group.targets.size()) {
+      project(group, columns_, part_, memory_);
+    } else {
+      part_.assign(group);
+    }
+    for (std::uint32_t& t : part_.targets) t -= t > target;
+    others_.add(part_.view());
   }
-  std::erase_if(groups_, [](const JointEvents& group) { return group.targets.empty(); });
+  std::swap(groups_, others_);
   std::erase_if(bonds_, [&](const Bond& bond) { return bond.a == target || bond.b == target; });
   for (Bond& bond : bonds_) bond.a -= bond.a > target, bond.b -= bond.b > target;
 }
@@ -59,6 +70,7 @@ MultiscanReport MultiscanJpda::run(std::span<const TargetScan> scan, const JpdaC
   report.scan = single_scan(clutter);
   find_clusters();
   report.clusters = clusters_.size();
+  events_.clear();
   for (Cluster& cluster : clusters_) solve(cluster, clutter, report);
   return report;
 }
@@ -69,7 +81,7 @@ JpdaReport MultiscanJpda::single_scan(const JpdaClutter& clutter) {
   for (std::uint32_t t = 0; t < targets(); ++t) {
     for (std::size_t o = 0; o < scan_[t].options(); ++o) {
       log_mean_.push_back(
-          log_mean(prior_[t], [&](std::size_t h) { return scan_[t].log_weight_of(h, o); }));
+          log_mean(prior(t), [&](std::size_t h) { return scan_[t].log_weight_of(h, o); }));
       if (o > 0) pairs_.push_back({t, scan_[t].points[o - 1], log_mean_.back()});
     }
     log_missed_.push_back(log_mean_[first_option_[t]]);
@@ -99,8 +111,8 @@ void MultiscanJpda::join(std::uint32_t a, std::uint32_t b) {
 void MultiscanJpda::find_clusters() {
   parent_.resize(targets());
   std::iota(parent_.begin(), parent_.end(), 0u);
-  for (const JointEvents& group : groups_) {
-    for (const std::uint32_t t : group.targets) join(t, group.targets.front());
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    for (const std::uint32_t t : groups_[g].targets) join(t, groups_[g].targets.front());
   }
   std::uint32_t points = 0;
   for (const JpdaPair& pair : pairs_) points = std::max(points, pair.point + 1);
@@ -110,32 +122,49 @@ void MultiscanJpda::find_clusters() {
     if (holder != kNobody) join(holder, pair.target);
     holder = pair.target;
   }
-  std::vector<std::uint32_t> number(targets(), kNobody);
-  clusters_.clear();
-  for (const JointEvents& group : groups_) {
-    std::uint32_t& n = number[root(group.targets.front())];
-    if (n == kNobody) {
-      n = static_cast<std::uint32_t>(clusters_.size());
-      clusters_.emplace_back().before = group;
-    } else {
-      JointEvents& before = clusters_[n].before;
-      before = product(before, group);
-      keep_best(before, settings_.events, 0);
-    }
+  join_groups();
+}
+
+/// Those of a cluster become one, whose events are all pairs of theirs.
+void MultiscanJpda::join_groups() {
+  std::uint32_t count = 0;
+  cluster_of_root_.assign(targets(), kNobody), cluster_of_group_.clear();
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    std::uint32_t& n = cluster_of_root_[root(groups_[g].targets.front())];
+    if (n == kNobody) n = count++;
+    cluster_of_group_.push_back(n);
   }
+  before_.clear();
+  for (std::uint32_t n = 0; n < count; ++n) {
+    const auto next = [&](auto from) {
+      return std::ranges::find(from, cluster_of_group_.end(), n);
+    };
+    auto group = next(cluster_of_group_.begin());
+    const auto view = [&] { return groups_[std::size_t(group - cluster_of_group_.begin())]; };
+    joint_.assign(view());
+    for (group = next(group + 1); group != cluster_of_group_.end(); group = next(group + 1)) {
+      product(joint_.view(), view(), part_, memory_);
+      keep_best(part_, settings_.events, 0, memory_);
+      std::swap(joint_, part_);
+    }
+    before_.add(joint_.view());
+  }
+  clusters_.clear();
+  for (std::size_t n = 0; n < count; ++n) clusters_.push_back({before_[n]});
 }
 
 /// Leaves out the least likely points of each target until the events are few enough. False if
 /// that does not help.
-bool MultiscanJpda::trim(Cluster& cluster, MultiscanReport& report) const {
-  const JointEvents& before = cluster.before;
-  cluster.choices.resize(before.targets.size());
+bool MultiscanJpda::trim(const Cluster& cluster, MultiscanReport& report) {
+  if (settings_.work == 0) return false;
+  const JointView& before = cluster.before;
+  if (choices_.size() < before.targets.size()) choices_.resize(before.targets.size());
   for (double least = 0; least <= kLastTrim; least = least == 0 ? kFirstTrim : 10 * least) {
     auto count = static_cast<double>(before.size());
     for (std::size_t c = 0; c < before.targets.size(); ++c) {
       const std::uint32_t t = before.targets[c];
-      cluster.choices[c].scan = &scan_[t];
-      auto& allowed = cluster.choices[c].allowed;
+      choices_[c].scan = &scan_[t];
+      auto& allowed = choices_[c].allowed;
       allowed.clear();
       for (std::uint32_t o = 0; o < scan_[t].options(); ++o) {
         if (single_[first_option_[t] + o] >= least) allowed.push_back(o);
@@ -166,13 +195,14 @@ ScanEvents::Factor MultiscanJpda::factor(const Cluster& cluster, const JpdaClutt
 }
 
 void MultiscanJpda::solve(Cluster& cluster, const JpdaClutter& clutter, MultiscanReport& report) {
-  const JointEvents& before = cluster.before;
-  ScanEvents& events = cluster.events;
   double total = 0;
   if (trim(cluster, report)) {
-    events.enumerate(before, cluster.choices, factor(cluster, clutter));
-    if (settings_.best_permutation) events.keep_best_permutations(cluster.choices);
-    report.events = std::max(report.events, events.size() * before.size());
+    const auto choices = std::span(std::as_const(choices_)).first(cluster.before.targets.size());
+    cluster.events = events_.groups();
+    events_.enumerate(cluster.before, choices, factor(cluster, clutter));
+    if (settings_.best_permutation) events_.keep_best_permutations(choices);
+    const ScanEvents::Group events = events_[cluster.events];
+    report.events = std::max(report.events, events.size() * events.before);
     total = events.total();
   }
   cluster.independent = !(total > 0);
@@ -180,6 +210,12 @@ void MultiscanJpda::solve(Cluster& cluster, const JpdaClutter& clutter, Multisca
     ++report.independent;
     return solve_apart(cluster);
   }
+  add_posterior(cluster, total);
+}
+
+void MultiscanJpda::add_posterior(const Cluster& cluster, double total) {
+  const JointView& before = cluster.before;
+  const ScanEvents::Group events = events_[cluster.events];
   for (std::size_t i = 0; i < events.size(); ++i) {
     const auto options = events.options(i);
     const auto weights = events.weights(i);
@@ -193,7 +229,7 @@ void MultiscanJpda::solve(Cluster& cluster, const JpdaClutter& clutter, Multisca
   }
 }
 
-void MultiscanJpda::solve_apart(Cluster& cluster) {
+void MultiscanJpda::solve_apart(const Cluster& cluster) {
   for (const std::uint32_t t : cluster.before.targets) {
     const std::size_t options = scan_[t].options();
     for (std::size_t h = 0; h < hypotheses(t); ++h) {
@@ -203,7 +239,7 @@ void MultiscanJpda::solve_apart(Cluster& cluster) {
                                  ? std::exp(scan_[t].log_weight_of(h, o) - mean)
                                  : 1.0;  // nothing fits: the hypotheses stay as likely as they were
         posterior_[first_[t] + h * options + o] =
-            prior_[t][h] * share * single_[first_option_[t] + o];
+            prior(t)[h] * share * single_[first_option_[t] + o];
       }
     }
   }

@@ -53,8 +53,8 @@ class MultiscanJpda {
   /// A target more, with one hypothesis and apart from all others.
   void add();
   void remove(std::size_t target);
-  std::size_t targets() const { return prior_.size(); }
-  std::size_t hypotheses(std::size_t target) const { return prior_[target].size(); }
+  std::size_t targets() const { return own_.size(); }
+  std::size_t hypotheses(std::size_t target) const { return own_[target].count; }
 
   /// A scan, one entry a target, which must live until advance(). The weights of a target may have
   /// any common factor.
@@ -75,7 +75,9 @@ class MultiscanJpda {
   /// when hypotheses that differ in scans that leave the window are one; `memory`: scans for
   /// which targets stay together that shared a point, window - 1.
   void advance(std::span<const std::uint32_t> merged, int memory);
-  std::span<const Child> children(std::size_t target) const { return children_[target]; }
+  std::span<const Child> children(std::size_t target) const {
+    return std::span(children_).subspan(own_[target].first, own_[target].count);
+  }
 
  private:
   static constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
@@ -84,31 +86,38 @@ class MultiscanJpda {
     int scans;  ///< left
   };
   struct Cluster {
-    JointEvents before;  ///< events of the scans before
-    std::vector<ScanEvents::Choices> choices;
-    ScanEvents events;
-    bool independent = false;
+    JointView before;          ///< events of the scans before
+    std::size_t events = 0;    ///< of the scan: number of the group in events_
+    bool independent = false;  ///< too many to be listed
   };
-  std::span<double> of_target(std::vector<double>& values, std::size_t target) const {
-    return std::span(values).subspan(first_[target], first_[target + 1] - first_[target]);
+  struct Range {
+    std::size_t first, count;
+  };
+  std::span<double> prior(std::size_t target) {
+    return std::span(prior_).subspan(own_[target].first, own_[target].count);
   }
   std::uint32_t root(std::uint32_t target);
   void join(std::uint32_t a, std::uint32_t b);
   JpdaReport single_scan(const JpdaClutter& clutter);
   void find_clusters();
-  bool trim(Cluster& cluster, MultiscanReport& report) const;
+  void join_groups();
+  bool trim(const Cluster& cluster, MultiscanReport& report);
   ScanEvents::Factor factor(const Cluster& cluster, const JpdaClutter& clutter) const;
   void solve(Cluster& cluster, const JpdaClutter& clutter, MultiscanReport& report);
-  void solve_apart(Cluster& cluster);
+  void add_posterior(const Cluster& cluster, double total);
+  void solve_apart(const Cluster& cluster);
   void bond(int memory);
   void carry(const Cluster& cluster, std::span<const std::uint32_t> merged);
+  void merge_before(const JointView& before, std::span<const std::uint32_t> merged);
   void carry_apart(std::uint32_t target, std::span<const std::uint32_t> merged);
-  void split(JointEvents&& events);
-  void number_children(JointEvents& group);
+  void split(JointEvents& events);
+  void number_children(std::size_t group);
 
   MultiscanSettings settings_;
-  std::vector<std::vector<double>> prior_;  // by target and hypothesis
-  std::vector<JointEvents> groups_;
+  std::vector<Range> own_;     // by target: its hypotheses in prior_ and children_
+  std::vector<double> prior_;  // by hypothesis
+  std::vector<Child> children_;
+  JointGroups groups_;
   std::vector<Bond> bonds_;
 
   // Of the scan at hand.
@@ -120,8 +129,19 @@ class MultiscanJpda {
   std::vector<std::size_t> first_option_, first_, first_hypothesis_;
   std::vector<std::uint32_t> parent_, holder_;
   std::vector<Cluster> clusters_;
+  JointGroups before_;  // by cluster
+  ScanEvents events_;
   std::vector<double> posterior_;
-  std::vector<std::vector<Child>> children_;
+
+  // Memory to be used again.
+  std::vector<std::uint32_t> cluster_of_root_, cluster_of_group_;
+  std::vector<ScanEvents::Choices> choices_;  // by target of a cluster, and more
+  JointGroups others_;
+  JointEvents joint_, merged_before_, part_;
+  JointWorkspace memory_;
+  std::vector<std::size_t> into_, columns_;
+  std::vector<std::uint32_t> hypotheses_, used_;
+  std::vector<double> weights_;
 };
 
 }  // namespace glint

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
-#include <utility>
 
 #include "glint/engine/text.hpp"
 
@@ -22,7 +21,7 @@ Gaussian<N> seen_as(const ModeOf<Axes>& mode, const Gaussian<N>& own) {
 
 /// Mean and covariance of the mixture of `modes`, in the parts that `own` has.
 template <int Axes, int N>
-Gaussian<N> mixture(const std::vector<ModeOf<Axes>>& modes, const Weights& weights,
+Gaussian<N> mixture(const typename ImmOf<Axes>::Modes& modes, const Weights& weights,
                     const Gaussian<N>& own) {
   Gaussian<N> result;
   result.mean.setZero(), result.covariance.setZero();
@@ -64,13 +63,28 @@ Switching staying(std::size_t models, double stay) {
   return switching;
 }
 
+ModeProbability weighed(const ModeProbability& probability,
+                        std::span<const double> log_likelihood) {
+  const double largest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
+  if (!std::isfinite(largest)) return probability;
+  double sum = 0;
+  ModeProbability next = probability;
+  for (std::size_t j = 0; j < next.size(); ++j) {
+    next[j] *= std::exp(log_likelihood[j] - largest);
+    sum += next[j];
+  }
+  if (!(sum > 0)) return probability;
+  for (double& p : next) p /= sum;
+  return next;
+}
+
 template <int Axes>
-ImmOf<Axes>::ImmOf(std::vector<ModeOf<Axes>> modes, const Switching& switching,
+ImmOf<Axes>::ImmOf(const Modes& modes, const Switching& switching,
                    const ModeProbability& probability)
-    : modes_(std::move(modes)), switching_(switching), probability_(probability) {
+    : probability_(probability), switching_(switching), modes_(modes) {
   const auto count = static_cast<Eigen::Index>(modes_.size());
-  if (count == 0 || modes_.size() > ModeProbability::kCapacity || switching.rows() != count ||
-      switching.cols() != count || probability.size() != modes_.size()) {
+  if (count == 0 || switching.rows() != count || switching.cols() != count ||
+      probability.size() != modes_.size()) {
     throw std::invalid_argument(
         "a bank needs one row, column and probability for each of its models");
   }
@@ -79,7 +93,7 @@ ImmOf<Axes>::ImmOf(std::vector<ModeOf<Axes>> modes, const Switching& switching,
 
 template <int Axes>
 void ImmOf<Axes>::mix() {
-  before_ = modes_;
+  const Modes before = modes_;
   const ModeProbability from = probability_;
   for (std::size_t j = 0; j < modes_.size(); ++j) {
     Weights weights{};
@@ -91,8 +105,7 @@ void ImmOf<Axes>::mix() {
     probability_[j] = sum;
     if (sum == 0) continue;  // a model that nothing leads to goes on as it was
     for (double& w : weights) w /= sum;
-    std::visit([&](auto& to) { to.belief = mixture<Axes>(before_, weights, to.belief); },
-               modes_[j]);
+    std::visit([&](auto& to) { to.belief = mixture<Axes>(before, weights, to.belief); }, modes_[j]);
   }
 }
 
@@ -101,21 +114,6 @@ void ImmOf<Axes>::predict(double step) {
   for (ModeOf<Axes>& any : modes_) {
     std::visit([step](auto& mode) { glint::predict(mode.model, mode.belief, step); }, any);
   }
-}
-
-template <int Axes>
-void ImmOf<Axes>::weigh(std::span<const double> log_likelihood) {
-  const double largest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
-  if (!std::isfinite(largest)) return;
-  double sum = 0;
-  ModeProbability next = probability_;
-  for (std::size_t j = 0; j < next.size(); ++j) {
-    next[j] *= std::exp(log_likelihood[j] - largest);
-    sum += next[j];
-  }
-  if (!(sum > 0)) return;
-  for (double& p : next) p /= sum;
-  probability_ = next;
 }
 
 template <int Axes>

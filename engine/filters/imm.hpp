@@ -7,6 +7,7 @@
 
 #include "glint/engine/mode_probability.hpp"
 #include "glint/engine/models/motion.hpp"
+#include "glint/engine/short_list.hpp"
 
 namespace glint {
 
@@ -36,28 +37,34 @@ std::vector<std::string> normalise_rows(Switching& switching);
 /// Of `models` models: each stays with probability `stay`, and goes to any other alike.
 Switching staying(std::size_t models, double stay);
 
+/// Models gain probability by how well they predicted: `log_likelihood`, one a model. As it was if
+/// none predicted anything.
+ModeProbability weighed(const ModeProbability& probability, std::span<const double> log_likelihood);
+
 /// A bank of Kalman filters, one a motion model, between which a target switches as a Markov chain
 /// (Blom and Bar-Shalom 1988). One cycle is mix(), predict(), an update of every mode's belief by
-/// the caller, and weigh(). Models may be of unlike dimension. Copies of banks of as many models,
-/// and a cycle, allocate nothing.
+/// the caller, and weigh(). Models may be of unlike dimension. It is a value: neither copies nor a
+/// cycle allocate.
 template <int Axes>
 class ImmOf {
  public:
+  using Modes = ShortList<ModeOf<Axes>, ModeProbability::kCapacity>;
+
   /// `switching`: rows are normalised. `probability`: of each model at the start. Throws
-  /// std::invalid_argument if the sizes are not those of `modes`, there are none or more than
-  /// ModeProbability::kCapacity, or as normalise_rows() does.
-  ImmOf(std::vector<ModeOf<Axes>> modes, const Switching& switching,
-        const ModeProbability& probability);
+  /// std::invalid_argument if the sizes are not those of `modes`, there are none, or as
+  /// normalise_rows() does.
+  ImmOf(const Modes& modes, const Switching& switching, const ModeProbability& probability);
 
   /// Each model starts from a mixture of what all believed, by how likely each leads to it; the
   /// probabilities become the predicted ones.
   void mix();
   void predict(double step);
-  /// Models gain probability by how well they predicted: `log_likelihood`, one a model.
-  void weigh(std::span<const double> log_likelihood);
+  void weigh(std::span<const double> log_likelihood) {
+    probability_ = weighed(probability_, log_likelihood);
+  }
 
-  std::vector<ModeOf<Axes>>& modes() { return modes_; }
-  const std::vector<ModeOf<Axes>>& modes() const { return modes_; }
+  Modes& modes() { return modes_; }
+  const Modes& modes() const { return modes_; }
   const ModeProbability& probability() const { return probability_; }
   /// One a model, together 1.
   void set_probability(const ModeProbability& probability) { probability_ = probability; }
@@ -65,9 +72,9 @@ class ImmOf {
   Gaussian<2 * Axes> combined() const;
 
  private:
-  std::vector<ModeOf<Axes>> modes_, before_;  // before_ is here so that mixing allocates nothing
-  Switching switching_;
   ModeProbability probability_;
+  Switching switching_;
+  Modes modes_;
 };
 
 extern template class ImmOf<2>;

@@ -23,23 +23,76 @@ void assign_belief(ModeOf<Axes>& any, const Gaussian<N>& belief) {
 
 }  // namespace
 
+/// What mix_banks() mixes.
+template <class Sensor>
+struct ImmWindow<Sensor>::Parts {
+  const ImmWindow& window;
+  const Target& target;
+
+  std::size_t size() const { return window.parts_.size(); }
+  const Child& child(const Part& part) const {
+    const std::size_t h = part.hypothesis - target.hypotheses.first;
+    return window.children_[target.first_child + h * target.gate.count + part.option - 1];
+  }
+  double probability(std::size_t i, std::size_t mode) const {
+    const Part& part = window.parts_[i];
+    return part.option > 0 ? child(part).probability[mode]
+                           : window.hypotheses_[part.hypothesis].bank.probability()[mode];
+  }
+  template <int N>
+  PartBelief<N> belief(std::size_t i, std::size_t mode) const {
+    constexpr int kAxes = Sensor::kAxes;
+    const Part& part = window.parts_[i];
+    if (part.option > 0) {
+      return {child(part).mean[mode].template head<N>(),
+              &belief_of<N, kAxes>(window.updated_[part.hypothesis][mode]).covariance};
+    }
+    const Bank& bank = window.hypotheses_[part.hypothesis].bank;
+    const Gaussian<N>& missed = belief_of<N, kAxes>(bank.modes()[mode]);
+    return {missed.mean, &missed.covariance};
+  }
+  /// What the first part believes in every model.
+  void first(Bank& bank) const {
+    for (std::size_t j = 0; j < bank.modes().size(); ++j) {
+      std::visit(
+          [&]<class Model>(Mode<Model, Sensor::kAxes>& mode) {
+            const auto part = belief<Sensor::kAxes * Model::kParts>(0, j);
+            mode.belief.mean = part.mean, mode.belief.covariance = *part.covariance;
+          },
+          bank.modes()[j]);
+    }
+  }
+};
+
 template <class Sensor>
 void ImmWindow<Sensor>::add(const Bank& bank) {
-  Target target{bank, {}, {}, {bank}, {}, {}, {1}, {}};
-  if (settings_.reading == WindowReading::sliding) {
-    target.hypotheses.push_back({{}, 0, bank});
-    active_.push_back(static_cast<std::uint32_t>(targets()));
-    jpda_.add();
+  targets_.push_back({bank});
+  if (settings_.reading == WindowReading::restart) {
+    targets_.back().before.push_back(bank);
+  } else {
+    begin(static_cast<std::uint32_t>(targets() - 1), bank);
   }
-  targets_.push_back(std::move(target));
+}
+
+/// The target enters the window with one hypothesis.
+template <class Sensor>
+void ImmWindow<Sensor>::begin(std::uint32_t target, const Bank& bank) {
+  targets_[target].hypotheses = {hypotheses_.size(), 1};
+  hypotheses_.push_back({{}, 0, bank});
+  active_.push_back(target);
+  jpda_.add();
 }
 
 template <class Sensor>
 void ImmWindow<Sensor>::remove(std::size_t target) {
+  const Range gone = targets_[target].hypotheses;
   targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(target));
   if (settings_.reading == WindowReading::restart) return;
   jpda_.remove(target);
   active_.pop_back();
+  const auto first = hypotheses_.begin() + static_cast<std::ptrdiff_t>(gone.first);
+  hypotheses_.erase(first, first + static_cast<std::ptrdiff_t>(gone.count));
+  for (std::size_t t = target; t < targets(); ++t) targets_[t].hypotheses.first -= gone.count;
 }
 
 template <class Sensor>
@@ -60,40 +113,54 @@ MultiscanReport ImmWindow<Sensor>::step(std::span<const Seen> points, const Sens
 /// From each target's estimate before the window, or its start, through the scans since.
 template <class Sensor>
 MultiscanReport ImmWindow<Sensor>::restart(const PastScan& newest) {
-  jpda_.clear(), active_.clear();
+  jpda_.clear(), active_.clear(), hypotheses_.clear();
   const std::size_t scans = past_.size() + 1;
   MultiscanReport report;
   for (std::size_t s = 0; s < scans; ++s) {
     for (std::uint32_t t = 0; t < targets(); ++t) {
-      Target& target = targets_[t];
-      if (target.before.size() != scans - s) continue;
-      target.hypotheses.assign(1, {{}, 0, target.before.front()});
-      active_.push_back(t), jpda_.add();
+      const std::vector<Bank>& before = targets_[t].before;
+      if (before.size() == scans - s) begin(t, before.front());
     }
     report = take_in(s + 1 < scans ? past_[s] : newest);
     if (s + 1 < scans) advance();
   }
+  remember(newest);
+  return report;
+}
+
+template <class Sensor>
+void ImmWindow<Sensor>::remember(const PastScan& scan) {
   const auto most = static_cast<std::size_t>(settings_.scans);
   for (Target& target : targets_) {
     target.before.push_back(target.estimate);
     if (target.before.size() > most) target.before.erase(target.before.begin());
   }
-  past_.push_back(newest);
-  if (past_.size() >= most) past_.erase(past_.begin());
-  return report;
+  if (past_.size() + 1 < most) {
+    past_.push_back(scan);
+  } else if (most > 1) {
+    std::rotate(past_.begin(), past_.begin() + 1, past_.end());
+    past_.back() = scan;
+  }
 }
 
 template <class Sensor>
 MultiscanReport ImmWindow<Sensor>::take_in(const PastScan& scan) {
-  scan_.clear();
   JpdaClutter clutter{settings_.clutter, scan.density, 0};
+  gate_.clear(), shares_.clear(), log_weight_.clear(), children_.clear(), updated_.clear();
   for (const std::uint32_t t : active_) {
     Target& target = targets_[t];
     predict(target, scan);
     find_gate(target, scan);
-    for (std::size_t h = 0; h < target.hypotheses.size(); ++h) update(target, scan, h);
+    target.log_weight = {log_weight_.size(), target.hypotheses.count * target.options()};
+    target.first_child = children_.size();
+    for (std::size_t h = 0; h < target.hypotheses.count; ++h) {
+      update(target, scan, target.hypotheses.first + h);
+    }
     clutter.volume += target.volume;
-    scan_.push_back({target.gate, target.log_weight});
+  }
+  scan_.clear();
+  for (const std::uint32_t t : active_) {
+    scan_.push_back({targets_[t].gate.of(gate_), targets_[t].log_weight.of(log_weight_)});
   }
   const MultiscanReport report = jpda_.run(scan_, clutter);
   for (std::size_t n = 0; n < active_.size(); ++n) estimate(targets_[active_[n]], n);
@@ -102,10 +169,11 @@ MultiscanReport ImmWindow<Sensor>::take_in(const PastScan& scan) {
 
 /// P-JPDA (16)-(21), for each hypothesis.
 template <class Sensor>
-void ImmWindow<Sensor>::predict(Target& target, const PastScan& scan) {
-  for (Hypothesis& hypothesis : target.hypotheses) {
-    hypothesis.bank.mix();
-    hypothesis.bank.predict(scan.elapsed);
+void ImmWindow<Sensor>::predict(const Target& target, const PastScan& scan) {
+  for (std::size_t h = 0; h < target.hypotheses.count; ++h) {
+    Bank& bank = hypotheses_[target.hypotheses.first + h].bank;
+    bank.mix();
+    bank.predict(scan.elapsed);
   }
 }
 
@@ -114,15 +182,16 @@ void ImmWindow<Sensor>::predict(Target& target, const PastScan& scan) {
 template <class Sensor>
 void ImmWindow<Sensor>::find_gate(Target& target, const PastScan& scan) {
   gated_.assign(scan.points.size(), false), target.volume = 0;
-  for (const Hypothesis& hypothesis : target.hypotheses) {
+  for (const Hypothesis& hypothesis : target.hypotheses.of(hypotheses_)) {
     for (const auto& any : hypothesis.bank.modes()) {
       std::visit([&](const auto& mode) { gate_of(mode.belief, target, scan); }, any);
     }
   }
-  target.gate.clear();
+  target.gate.first = gate_.size();
   for (std::uint32_t i = 0; i < scan.points.size(); ++i) {
-    if (gated_[i]) target.gate.push_back(i);
+    if (gated_[i]) gate_.push_back(i);
   }
+  target.gate.count = gate_.size() - target.gate.first;
 }
 
 template <class Sensor>
@@ -139,29 +208,29 @@ void ImmWindow<Sensor>::gate_of(const Gaussian<N>& predicted, Target& target,
 /// Where the hypothesis leads to with each point, and how likely it makes them: the sum over the
 /// models of l^j(0) = 1 - P_D, l^j(i) = P_D N(y_i).
 template <class Sensor>
-void ImmWindow<Sensor>::update(Target& target, const PastScan& scan, std::size_t hypothesis) {
-  const Bank& bank = target.hypotheses[hypothesis].bank;
-  const std::size_t options = target.gate.size() + 1, first = hypothesis * options;
-  if (target.children.size() < first + options) target.children.resize(first + options, bank);
-  target.log_weight.resize(first + options);
-  const std::span children = std::span(target.children).subspan(first, options);
-  std::ranges::fill(children, bank);
-  const std::size_t modes = bank.modes().size();
-  log_likelihood_.assign((options - 1) * modes, 0);
+void ImmWindow<Sensor>::update(const Target& target, const PastScan& scan, std::size_t hypothesis) {
+  const Bank& bank = hypotheses_[hypothesis].bank;
+  const std::size_t modes = bank.modes().size(), points = target.gate.count;
+  Child child{bank.probability(), {}};
+  for (std::size_t j = 0; j < modes; ++j) child.mean.push_back(Child::Mean::Zero());
+  children_.resize(children_.size() + points, child);
+  const std::span children = std::span(children_).last(points);
+  updated_.push_back(bank.modes());
+  log_likelihood_.assign(points * modes, 0);
   for (std::size_t j = 0; j < modes; ++j) {
     std::visit([&](const auto& mode) { update_mode(mode.belief, j, children, target, scan); },
                bank.modes()[j]);
   }
-  target.log_weight[first] = std::log(1 - settings_.detection);
-  for (std::size_t i = 0; i + 1 < options; ++i) {
+  log_weight_.push_back(std::log(1 - settings_.detection));
+  for (std::size_t i = 0; i < points; ++i) {
     const std::span own = std::span(log_likelihood_).subspan(i * modes, modes);
     const double largest = *std::ranges::max_element(own);
     double sum = 0;
     for (std::size_t j = 0; j < modes; ++j) {
       sum += bank.probability()[j] * std::exp(own[j] - largest);
     }
-    target.log_weight[first + i + 1] = std::log(settings_.detection) + largest + std::log(sum);
-    children[i + 1].weigh(own);
+    log_weight_.push_back(std::log(settings_.detection) + largest + std::log(sum));
+    children[i].probability = weighed(bank.probability(), own);
   }
 }
 
@@ -169,18 +238,20 @@ void ImmWindow<Sensor>::update(Target& target, const PastScan& scan, std::size_t
 template <class Sensor>
 template <int N>
 void ImmWindow<Sensor>::update_mode(const Gaussian<N>& predicted, std::size_t mode,
-                                    std::span<Bank> children, const Target& target,
+                                    std::span<Child> children, const Target& target,
                                     const PastScan& scan) {
   const auto expected = predict_measurement(predicted, scan.sensor, settings_.linearisation);
   Gaussian<N> belief = predicted;
   belief.covariance -= expected.gain * expected.covariance * expected.gain.transpose();
   symmetrise(belief.covariance);
-  for (std::size_t i = 0; i < target.gate.size(); ++i) {
-    Bank& child = children[i + 1];
-    const Seen& point = scan.points[target.gate[i]];
+  assign_belief<Sensor::kAxes>(updated_.back()[mode], belief);
+  const std::size_t modes = updated_.back().size();
+  const std::span<const std::uint32_t> gate = target.gate.of(gate_);
+  for (std::size_t i = 0; i < gate.size(); ++i) {
+    const Seen& point = scan.points[gate[i]];
     belief.mean = predicted.mean + expected.gain * expected.innovation(point);
-    assign_belief<Sensor::kAxes>(child.modes()[mode], belief);
-    log_likelihood_[i * child.modes().size() + mode] = expected.log_density(point);
+    children[i].mean[mode].template head<N>() = belief.mean;
+    log_likelihood_[i * modes + mode] = expected.log_density(point);
   }
 }
 
@@ -188,11 +259,16 @@ void ImmWindow<Sensor>::update_mode(const Gaussian<N>& predicted, std::size_t mo
 template <class Sensor>
 void ImmWindow<Sensor>::estimate(Target& target, std::size_t number) {
   const auto posterior = jpda_.posterior(number);
-  const std::size_t options = target.gate.size() + 1;
-  target.share.assign(options, 0);
-  for (std::size_t i = 0; i < posterior.size(); ++i) target.share[i % options] += posterior[i];
-  mix_banks<Sensor::kAxes>(std::span<const Bank>(target.children).first(posterior.size()),
-                           posterior, target.estimate);
+  const std::size_t options = target.options();
+  const std::size_t first = shares_.size();
+  target.missed = 0, shares_.resize(first + target.gate.count, 0);
+  parts_.clear();
+  for (std::size_t i = 0; i < posterior.size(); ++i) {
+    const std::size_t option = i % options;
+    (option > 0 ? shares_[first + option - 1] : target.missed) += posterior[i];
+    parts_.push_back({target.hypotheses.first + i / options, option});
+  }
+  mix_banks(Parts{*this, target}, posterior, target.estimate);
 }
 
 /// The scan joins the window and the oldest leaves it: hypotheses that differ in that one alone
@@ -201,33 +277,39 @@ template <class Sensor>
 void ImmWindow<Sensor>::advance() {
   const int memory = settings_.scans - 1;
   merged_.clear();
-  for (const std::uint32_t t : active_) {
-    std::vector<Hypothesis>& hypotheses = targets_[t].hypotheses;
-    std::uint32_t count = 0;
-    const std::size_t first = merged_.size();
-    for (Hypothesis& h : hypotheses) {
-      if (h.length == memory) {
-        std::shift_left(h.history.begin(), h.history.end(), 1);
-        --h.length;
-      }
-    }
-    for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-      std::size_t same = 0;
-      const auto history = [&](std::size_t i) {
-        return std::span(hypotheses[i].history)
-            .first(static_cast<std::size_t>(hypotheses[i].length));
-      };
-      while (!std::ranges::equal(history(same), history(h))) ++same;
-      merged_.push_back(same < h ? merged_[first + same] : count++);
-    }
-  }
+  for (const std::uint32_t t : active_) name_merged(targets_[t], memory);
   jpda_.advance(merged_, memory);
+  next_.clear();
   std::size_t first = 0;
   for (std::size_t n = 0; n < active_.size(); ++n) {
     Target& target = targets_[active_[n]];
-    const std::size_t count = target.hypotheses.size();
+    const std::size_t count = target.hypotheses.count;
     merge(target, n, std::span(merged_).subspan(first, count));
     first += count;
+  }
+  std::swap(hypotheses_, next_);
+}
+
+/// Forgets what leaves the window; hypotheses that then are alike get one number.
+template <class Sensor>
+void ImmWindow<Sensor>::name_merged(const Target& target, int memory) {
+  const std::span hypotheses =
+      std::span(hypotheses_).subspan(target.hypotheses.first, target.hypotheses.count);
+  for (Hypothesis& h : hypotheses) {
+    if (h.length == memory) {
+      std::shift_left(h.history.begin(), h.history.end(), 1);
+      --h.length;
+    }
+  }
+  const auto history = [&](std::size_t h) {
+    return std::span(hypotheses[h].history).first(static_cast<std::size_t>(hypotheses[h].length));
+  };
+  const std::size_t first = merged_.size();
+  std::uint32_t count = 0;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    std::size_t same = 0;
+    while (!std::ranges::equal(history(same), history(h))) ++same;
+    merged_.push_back(same < h ? merged_[first + same] : count++);
   }
 }
 
@@ -235,34 +317,33 @@ template <class Sensor>
 void ImmWindow<Sensor>::merge(Target& target, std::size_t number,
                               std::span<const std::uint32_t> merged) {
   const auto posterior = jpda_.posterior(number);
-  const std::size_t options = target.gate.size() + 1;
-  target.next.clear();
+  const std::size_t first = next_.size();
   for (const MultiscanJpda::Child& child : jpda_.children(number)) {
     parts_.clear(), weights_.clear();
     double sum = 0;
-    std::size_t of = 0;
     for (std::size_t h = 0; h < merged.size(); ++h) {
       if (merged[h] != child.merged) continue;
-      const std::size_t at = h * options + child.option;
-      parts_.push_back(target.children[at]), weights_.push_back(posterior[at]);
-      sum += posterior[at], of = h;
+      parts_.push_back({target.hypotheses.first + h, child.option});
+      weights_.push_back(posterior[h * target.options() + child.option]);
+      sum += weights_.back();
     }
     for (double& w : weights_) w = sum > 0 ? w / sum : 1 / static_cast<double>(parts_.size());
-    Hypothesis next = target.hypotheses[of];
-    next.bank = parts_.front();
-    mix_banks<Sensor::kAxes>(parts_, weights_, next.bank);
+    next_.push_back(hypotheses_[parts_.back().hypothesis]);
+    Hypothesis& next = next_.back();
+    const Parts parts{*this, target};
+    parts.first(next.bank);
+    mix_banks(parts, weights_, next.bank);
     next.history[static_cast<std::size_t>(next.length++)] = child.option;
-    target.next.push_back(std::move(next));
   }
-  std::swap(target.hypotheses, target.next);
+  target.hypotheses = {first, next_.size() - first};
 }
 
 /// A window of one scan: all hypotheses are merged.
 template <class Sensor>
 void ImmWindow<Sensor>::forget() {
   jpda_.clear();
-  for (Target& target : targets_) {
-    target.hypotheses.front().bank = target.estimate;
+  for (const Target& target : targets_) {
+    hypotheses_[target.hypotheses.first].bank = target.estimate;
     jpda_.add();
   }
 }

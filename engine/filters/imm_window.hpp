@@ -9,6 +9,7 @@
 #include "glint/engine/association/multiscan_jpda.hpp"
 #include "glint/engine/filters/imm.hpp"
 #include "glint/engine/filters/measurement_prediction.hpp"
+#include "glint/engine/short_list.hpp"
 
 namespace glint {
 
@@ -54,10 +55,12 @@ class ImmWindow {
   const Bank& bank(std::size_t target) const { return targets_[target].estimate; }
   Bank& bank(std::size_t target) { return targets_[target].estimate; }
   /// Probability that it has none of the points of the last scan, or the point of its gate.
-  double missed(std::size_t target) const { return targets_[target].share[0]; }
-  std::span<const std::uint32_t> gated(std::size_t target) const { return targets_[target].gate; }
+  double missed(std::size_t target) const { return targets_[target].missed; }
+  std::span<const std::uint32_t> gated(std::size_t target) const {
+    return targets_[target].gate.of(gate_);
+  }
   std::span<const double> shares(std::size_t target) const {
-    return std::span(targets_[target].share).subspan(1);
+    return targets_[target].gate.of(shares_);
   }
 
  private:
@@ -67,47 +70,80 @@ class ImmWindow {
     int length = 0;
     Bank bank;
   };
+  /// What a hypothesis becomes with a point: the covariances are the same with every point.
+  struct Child {
+    using Mean = Eigen::Matrix<double, 3 * Sensor::kAxes, 1>;  // of N numbers the first N
+    ModeProbability probability;
+    ShortList<Mean, ModeProbability::kCapacity> mean;  // by model
+  };
+  /// Part of an array that holds those of all targets: each array then has the room of the largest
+  /// scan, which grows little in time, and not that of each target's largest.
+  struct Range {
+    std::size_t first = 0, count = 0;
+    template <class T>
+    std::span<const T> of(const std::vector<T>& all) const {
+      return std::span(all).subspan(first, count);
+    }
+  };
   struct Target {
     Bank estimate;
-    std::vector<Hypothesis> hypotheses, next;
-    std::vector<Bank> before;  // estimates, the newest last; restart alone
-    std::vector<std::uint32_t> gate;
-    std::vector<double> log_weight, share;
-    std::vector<Bank> children;  // by hypothesis and option
-    double volume = 0;           // of the gate
+    std::vector<Bank> before{};  // estimates, the newest last; restart alone
+    Range hypotheses{};
+    // Of the last scan.
+    Range gate{};                 // also of shares_
+    Range log_weight{};           // by hypothesis and option
+    std::size_t first_child = 0;  // by hypothesis and point
+    double volume = 0;            // of the gate
+    double missed = 1;
+    std::size_t options() const { return gate.count + 1; }
   };
   struct PastScan {
     std::vector<Seen> points;
     Sensor sensor;
     double density = 0, elapsed = 0;
   };
+  /// A hypothesis of a target with one of its options.
+  struct Part {
+    std::size_t hypothesis, option;
+  };
+  struct Parts;
 
   MultiscanReport restart(const PastScan& newest);
   MultiscanReport take_in(const PastScan& scan);
-  void predict(Target& target, const PastScan& scan);
+  void remember(const PastScan& scan);
+  void begin(std::uint32_t target, const Bank& bank);
+  void predict(const Target& target, const PastScan& scan);
   void find_gate(Target& target, const PastScan& scan);
   template <int N>
   void gate_of(const Gaussian<N>& predicted, Target& target, const PastScan& scan);
-  void update(Target& target, const PastScan& scan, std::size_t hypothesis);
+  void update(const Target& target, const PastScan& scan, std::size_t hypothesis);
   template <int N>
-  void update_mode(const Gaussian<N>& predicted, std::size_t mode, std::span<Bank> children,
+  void update_mode(const Gaussian<N>& predicted, std::size_t mode, std::span<Child> children,
                    const Target& target, const PastScan& scan);
   void estimate(Target& target, std::size_t number);
   void advance();
+  void name_merged(const Target& target, int memory);
   void merge(Target& target, std::size_t number, std::span<const std::uint32_t> merged);
   void forget();
 
   ImmWindowSettings settings_;
   MultiscanJpda jpda_;
   std::vector<Target> targets_;
+  std::vector<Hypothesis> hypotheses_;
   std::vector<PastScan> past_;         // the newest last; restart alone
-  std::vector<std::uint32_t> active_;  // targets by their number in jpda_
+  std::vector<std::uint32_t> active_;  // targets by their number in jpda_, as are hypotheses_
+  // Of the last scan, by target.
   PastScan newest_;
+  std::vector<std::uint32_t> gate_;
+  std::vector<double> shares_, log_weight_;
+  std::vector<typename Bank::Modes> updated_;  // by hypothesis: covariances after a point
+  std::vector<Child> children_;
   // Memory to be used again.
   std::vector<TargetScan> scan_;
+  std::vector<Hypothesis> next_;
   std::vector<bool> gated_;
   std::vector<std::uint32_t> merged_;
-  std::vector<Bank> parts_;
+  std::vector<Part> parts_;
   std::vector<double> weights_, log_likelihood_;  // log_likelihood_: by point and model
 };
 

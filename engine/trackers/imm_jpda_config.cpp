@@ -58,25 +58,25 @@ std::vector<std::string> imm_jpda_modes(const ImmJpdaConfig& config) {
 }
 
 Imm imm_jpda_bank(const ImmJpdaConfig& config, const Gaussian<4>& state) {
-  std::vector<AnyMode> modes;
+  Imm::Modes modes;
   for (const std::string& name : imm_jpda_modes(config)) {
     const double sd = name == "ncv"        ? config.noise
                       : name == "wpa-jump" ? config.noise_jump
                                            : config.noise_agile;
     if (name.starts_with("ncv")) {
-      modes.emplace_back(Mode<NearlyConstantVelocity>{{sd * sd}, state});
+      modes.push_back(Mode<NearlyConstantVelocity>{{sd * sd}, state});
       continue;
     }
     Gaussian<6> own;
     own.covariance *= sd * sd;
-    modes.emplace_back(Mode<WienerAcceleration>{{sd * sd}, embed<2>(state, own)});
+    modes.push_back(Mode<WienerAcceleration>{{sd * sd}, embed<2>(state, own)});
   }
   const std::size_t count = modes.size();
   ModeProbability probability;
   for (std::size_t i = 0; i < count; ++i) {  // P-JPDA section 5: .8 .1 .1
     probability.push_back(count == 1 ? 1 : i == 0 ? 0.8 : 0.2 / static_cast<double>(count - 1));
   }
-  return {std::move(modes), staying(count, config.stay), probability};
+  return {modes, staying(count, config.stay), probability};
 }
 
 }  // namespace glint

@@ -97,6 +97,7 @@ void ImmPdaAi::update(Track& track, std::int64_t frame) {
         track.imm.modes()[j]);
   }
   track.imm.weigh(std::span(log_likelihood).first(modes));
+  track.position = position_of(track.imm);
   learn(track, points, frame);
 }
 
@@ -125,7 +126,7 @@ void ImmPdaAi::end_duplicates() {
   for (std::size_t b = 1; b < tracks_.size(); ++b) {
     for (std::size_t a = 0; a < b && !tracks_[b].over; ++a) {
       if (tracks_[a].over) continue;
-      const double apart = (position_of(tracks_[a].imm) - position_of(tracks_[b].imm)).norm();
+      const double apart = (tracks_[a].position - tracks_[b].position).norm();
       if (apart >= config_.separation) continue;
       const bool younger_is_surer = tracks_[b].confirmed && !tracks_[a].confirmed;
       (younger_is_surer ? tracks_[a] : tracks_[b]).over = true;
@@ -142,8 +143,8 @@ ImmPdaAi::Track ImmPdaAi::track_at(const Start& at, double amplitude, std::int64
   Switching switching(2, 2);
   const double stay = config_.stay;
   switching << stay, 1 - stay, 1 - stay, stay;
-  return {next_id_++, frame, frame, Imm({slow, fast}, switching, {0.5, 0.5}),
-          TargetAmplitude(amplitude)};
+  const Imm imm({slow, fast}, switching, {0.5, 0.5});
+  return {next_id_++, frame, frame, imm, TargetAmplitude(amplitude), position_of(imm)};
 }
 
 /// Known targets are as bright as the brightest point that could be theirs.
@@ -162,19 +163,23 @@ void ImmPdaAi::add_starts(const Scan& scan) {
 
 bool ImmPdaAi::crowded(const Eigen::Vector2d& position) const {
   return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
-    return !track.over && (position_of(track.imm) - position).norm() < config_.separation;
+    return !track.over && (track.position - position).norm() < config_.separation;
   });
 }
 
 /// The brightest first, so that of several points of one target only that one starts a track.
 void ImmPdaAi::start_from_free_points(const Scan& scan) {
-  std::erase_if(measurements_, [&](const Measurement& m) {
-    return !m.free || m.amplitude < config_.start_amplitude;
+  free_.clear();
+  for (std::uint32_t i = 0; i < measurements_.size(); ++i) {
+    const Measurement& m = measurements_[i];
+    if (m.free && !(m.amplitude < config_.start_amplitude)) free_.push_back(i);
+  }
+  std::ranges::sort(free_, [&](std::uint32_t a, std::uint32_t b) {
+    const double x = measurements_[a].amplitude, y = measurements_[b].amplitude;
+    return x != y ? x > y : a < b;
   });
-  std::stable_sort(
-      measurements_.begin(), measurements_.end(),
-      [](const Measurement& a, const Measurement& b) { return a.amplitude > b.amplitude; });
-  for (const Measurement& m : measurements_) {
+  for (const std::uint32_t i : free_) {
+    const Measurement& m = measurements_[i];
     if (crowded(m.position)) continue;
     Track track = track_at({m.position.x(), m.position.y(), 0, 0}, m.amplitude, scan.frame);
     track.confirmed = config_.confirm_hits == 1;

@@ -65,6 +65,7 @@ class ImmPdaAi : public Tracker {
     std::int64_t first_frame, last_seen;
     Imm imm;
     TargetAmplitude amplitude;
+    Eigen::Vector2d position;  ///< [px]: asked for by every other track, so kept
     bool confirmed = false, over = false;
     int age = 1, hits = 1, misses = 0;  ///< scans
   };
@@ -102,6 +103,7 @@ class ImmPdaAi : public Tracker {
   std::vector<double> amplitudes_, log_ratio_;
   std::vector<double> beta_;  ///< by model: none of the points, then each
   // Memory to be used again.
+  std::vector<std::uint32_t> free_;  ///< numbers of the points that may start a track
   std::vector<float> levels_;
   std::vector<Point> units_;
   PointWorkspace workspace_;

@@ -105,23 +105,21 @@ Imm pmht_bank(const PmhtConfig& config, const PmhtStart& start) {
   const double r = config.measurement_variance;
   const Gaussian<3> x = axis_start(start.position.x(), start.velocity.x(), r, start.step);
   const Gaussian<3> y = axis_start(start.position.y(), start.velocity.y(), r, start.step);
-  std::vector<AnyMode> modes;
+  Imm::Modes modes;
   for (const std::string& name : pmht_mode_names(config)) {
     const double scale = name.ends_with("-agile") ? config.noise_ratio : 1;
-    if (name.starts_with("cv"))
-      modes.emplace_back(mode_at(ConstantVelocity{config.cv_noise}, x, y));
+    if (name.starts_with("cv")) modes.push_back(mode_at(ConstantVelocity{config.cv_noise}, x, y));
     if (name.starts_with("ca")) {
-      modes.emplace_back(mode_at(WienerAcceleration{scale * config.ca_noise}, x, y));
+      modes.push_back(mode_at(WienerAcceleration{scale * config.ca_noise}, x, y));
     }
     if (name.starts_with("singer")) {
-      modes.emplace_back(
-          mode_at(Singer{config.singer_fading, scale * config.singer_variance}, x, y));
+      modes.push_back(mode_at(Singer{config.singer_fading, scale * config.singer_variance}, x, y));
     }
   }
   const std::size_t count = modes.size();
   ModeProbability probability;
   for (std::size_t i = 0; i < count; ++i) probability.push_back(1.0 / static_cast<double>(count));
-  return {std::move(modes), staying(count, config.stay), probability};
+  return {modes, staying(count, config.stay), probability};
 }
 
 }  // namespace glint

@@ -55,12 +55,10 @@ Watch follow(const TrackerEntry& entry, std::int64_t from, std::int64_t scans, s
   return watch;
 }
 
-// imm-mscan-jpda is missing on purpose: its window keeps the room of the largest cluster so far,
-// and was seen to grow by 300 kB over the last 8,000 scans (docs/performance.md).
 std::vector<TrackerEntry> trackers_of_points() {
   std::vector<TrackerEntry> some;
   for (const TrackerEntry& entry : all_trackers()) {
-    if (entry.feed != Feed::frames && entry.name != "imm-mscan-jpda") some.push_back(entry);
+    if (entry.feed != Feed::frames) some.push_back(entry);
   }
   return some;
 }
@@ -75,9 +73,7 @@ std::string test_name(const testing::TestParamInfo<TrackerEntry>& info) {
 INSTANTIATE_TEST_SUITE_P(Trackers, PointMemory, testing::ValuesIn(trackers_of_points()), test_name);
 
 TEST_P(PointMemory, IsFlatOverThousandsOfScans) {
-  // Clouds, and updates point by point, are slow.
-  const bool slow = GetParam().name == "mmpf-pmht" || GetParam().name == "imm-pda-ai";
-  const std::int64_t scans = slow ? 2500 : 10000;
+  const std::int64_t scans = GetParam().name == "mmpf-pmht" ? 2500 : 10000;  // clouds are slow
   const Watch watch = follow(GetParam(), scans / 5, scans, 50);
   RecordProperty("live_bytes", std::to_string(watch.live()));
   RecordProperty("grown_bytes", std::to_string(watch.grown()));
