@@ -75,6 +75,9 @@ TEST(Architecture, OpenCvStaysInVideoAndInBaselines) {
   expect_none(kRooms, {"opencv"}, {"frontends/video/", "bench/baselines/"});
 }
 TEST(Architecture, TomlStaysInConfig) { expect_none(kRooms, {"toml++"}, {"frontends/config/"}); }
+TEST(Architecture, PythonStaysInItsFrontEnd) {
+  expect_none(kRooms, {"pybind11", "Python.h"}, {"frontends/python/"});
+}
 TEST(Architecture, TbbStaysInKernelsAndTheScheduler) {
   // The tools that count threads may hold a global_control; the library may not.
   const std::vector<std::string_view> headers{"tbb/", "oneapi/tbb"};

@@ -18,6 +18,7 @@
 
 #include "glint/engine/engine.hpp"
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/capi/track_row.hpp"
 #include "glint/frontends/config/profiles.hpp"
 #include "glint/frontends/config/run_config.hpp"
 #include "glint/frontends/config/toml.hpp"
@@ -86,13 +87,6 @@ S taken(const S* given, S defaults, const char* what) {
   return defaults;
 }
 
-void refuse_what_reads_files(const RunConfig& run) {
-  if (run.mask.empty() && run.points.empty() && run.format.empty() && run.add_noise == 0) return;
-  throw UsageError(
-      "run.mask, run.points, run.format and run.add_noise are for the command line; leave them "
-      "out");
-}
-
 Scheduler scheduler_of(const glint_options& options) {
   std::vector<ConfigSection> sections = all_sections();
   if (options.profile != nullptr) apply_profile(options.profile, sections);
@@ -100,18 +94,10 @@ Scheduler scheduler_of(const glint_options& options) {
   if (options.tracker != nullptr) {
     apply_set(std::string("run.tracker=") + options.tracker, sections);
   }
-  const RunConfig run = section_named(sections, "run").as<RunConfig>();
-  refuse_what_reads_files(run);
-  if (trackers_of(run).empty()) {
+  if (trackers_of(section_named(sections, "run").as<RunConfig>()).empty()) {
     throw UsageError("no tracker is named; set options.tracker, for example to \"mm-phd\"");
   }
-  const Device device = Device::named(run.device, run.threads);
-  Scheduler scheduler(device,
-                      FramePreparer(section_named(sections, "frames").as<FramesConfig>(), device),
-                      section_named(sections, "points").as<PointsConfig>());
-  scheduler.keep(run.keep);
-  add_trackers(scheduler, sections, device);
-  return scheduler;
+  return pushed_frames_scheduler(sections);
 }
 
 std::ptrdiff_t bytes_of(glint_pixel pixel) {
@@ -191,23 +177,6 @@ SourceFrame source_frame(glint_frame frame) {
   source.pixels.data = as_pixels(copy.get(), frame.pixel);
   source.owner = std::move(copy);
   return source;
-}
-
-glint_track track_of(const TrackPoint& p, std::size_t tracker) {
-  return {p.frame,
-          p.time,
-          p.track_id,
-          static_cast<std::int32_t>(tracker),
-          static_cast<std::int32_t>(p.status),
-          p.x,
-          p.y,
-          p.vx,
-          p.vy,
-          p.intensity,
-          p.existence,
-          p.var_x,
-          p.cov_xy,
-          p.var_y};
 }
 
 /// An array of the caller's, whose elements may be older and shorter than ours.

@@ -23,28 +23,17 @@ bool sets_tracker(const std::string& assignment) {
   return key == "run.tracker" || key == "tracker";
 }
 
-std::vector<ConfigSection> used_sections(std::span<const ConfigSection> all,
-                                         const std::vector<std::string>& trackers,
-                                         const std::vector<std::string>& inputs,
-                                         const std::vector<std::string>& more) {
-  std::vector<std::string> names{"run", "frames"};
-  const auto feeds_on_points = [](const std::string& tracker) {
-    return find_tracker(tracker).feed != Feed::frames;
-  };
-  if (std::ranges::any_of(trackers, feeds_on_points)) names.emplace_back("points");
-  for (const auto& tracker : trackers) {
-    names.push_back("trackers." + std::string(find_tracker(tracker).name));
-  }
+/// Sections of the scenes among the inputs, then `more`.
+std::vector<std::string> further_sections(const std::vector<std::string>& inputs,
+                                          const std::vector<std::string>& more) {
+  std::vector<std::string> names;
   for (const auto& input : inputs) {
     if (const auto scene = scene_name(input)) {
       names.push_back("scenes." + std::string(find_scene(*scene).name));
     }
   }
   names.insert(names.end(), more.begin(), more.end());
-  std::vector<ConfigSection> used;
-  used.reserve(names.size());
-  for (const auto& name : names) used.push_back(section_named(all, name));
-  return used;
+  return names;
 }
 
 /// An option that is short for --set run.<key>=...
@@ -179,7 +168,7 @@ FrameJob settle(const FrameOptions& options, const std::vector<std::string>& mor
   }
   const ConfigSection run = section_named(all, "run");
   std::vector<std::string> trackers = trackers_of(run.as<RunConfig>());
-  auto used = used_sections(all, trackers, options.inputs, more);
+  auto used = used_sections(all, trackers, further_sections(options.inputs, more));
   for (const auto& set : options.sets) apply_set(set, used);
   return {options.inputs, std::move(trackers), std::move(used), make_device(run.as<RunConfig>()),
           options.quiet};

@@ -35,6 +35,17 @@ void describe(FieldList& list, RunConfig& c) {
        "file of points (.csv, .jsonl) that go with the frames, instead of those found in them");
 }
 
+namespace {
+
+void refuse_what_reads_files(const RunConfig& run) {
+  if (run.mask.empty() && run.points.empty() && run.format.empty() && run.add_noise == 0) return;
+  throw UsageError(
+      "run.mask, run.points, run.format and run.add_noise are for the command line; leave them "
+      "out");
+}
+
+}  // namespace
+
 std::vector<std::string> trackers_of(const RunConfig& run) {
   std::istringstream stream(run.tracker);
   std::vector<std::string> names;
@@ -62,6 +73,24 @@ ConfigSection section_named(std::span<const ConfigSection> sections, const std::
   return *found;
 }
 
+std::vector<ConfigSection> used_sections(std::span<const ConfigSection> all,
+                                         std::span<const std::string> trackers,
+                                         std::span<const std::string> more) {
+  std::vector<std::string> names{"run", "frames"};
+  const auto feeds_on_points = [](const std::string& tracker) {
+    return find_tracker(tracker).feed != Feed::frames;
+  };
+  if (std::ranges::any_of(trackers, feeds_on_points)) names.emplace_back("points");
+  for (const auto& tracker : trackers) {
+    names.push_back("trackers." + std::string(find_tracker(tracker).name));
+  }
+  names.insert(names.end(), more.begin(), more.end());
+  std::vector<ConfigSection> used;
+  used.reserve(names.size());
+  for (const auto& name : names) used.push_back(section_named(all, name));
+  return used;
+}
+
 void add_trackers(Scheduler& scheduler, std::span<const ConfigSection> sections,
                   const Device& device) {
   const RunConfig run = section_named(sections, "run").as<RunConfig>();
@@ -70,6 +99,18 @@ void add_trackers(Scheduler& scheduler, std::span<const ConfigSection> sections,
     const ConfigSection section = section_named(sections, "trackers." + std::string(entry.name));
     scheduler.add(entry.make(section, device, static_cast<std::uint64_t>(run.seed)), name);
   }
+}
+
+Scheduler pushed_frames_scheduler(std::span<const ConfigSection> sections) {
+  const RunConfig run = section_named(sections, "run").as<RunConfig>();
+  refuse_what_reads_files(run);
+  const Device device = Device::named(run.device, run.threads);
+  Scheduler scheduler(device,
+                      FramePreparer(section_named(sections, "frames").as<FramesConfig>(), device),
+                      section_named(sections, "points").as<PointsConfig>());
+  scheduler.keep(run.keep);
+  add_trackers(scheduler, sections, device);
+  return scheduler;
 }
 
 std::string bare_toml(std::span<const ConfigSection> sections) {

@@ -36,10 +36,21 @@ std::vector<ConfigSection> all_sections();
 /// The section of that name. Copies of a section share its settings.
 ConfigSection section_named(std::span<const ConfigSection> sections, const std::string& name);
 
+/// The sections that a run with these trackers reads: run, frames, points if a tracker feeds on
+/// them, each tracker's own, then those that `more` names. Throws ConfigError for a tracker that is
+/// none.
+std::vector<ConfigSection> used_sections(std::span<const ConfigSection> all,
+                                         std::span<const std::string> trackers,
+                                         std::span<const std::string> more = {});
+
 /// Adds the trackers of the section [run], each made of its own section. Throws UsageError for a
 /// name that is none, and what a tracker throws for its settings.
 void add_trackers(Scheduler& scheduler, std::span<const ConfigSection> sections,
                   const Device& device);
+
+/// What programs that push frames track them with. Throws UsageError for settings of [run] that
+/// tell the command line what to read; else as add_trackers() does.
+Scheduler pushed_frames_scheduler(std::span<const ConfigSection> sections);
 
 /// Settings as TOML without help texts.
 std::string bare_toml(std::span<const ConfigSection> sections);

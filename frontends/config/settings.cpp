@@ -97,6 +97,16 @@ void refuse_section(std::string_view name, std::span<ConfigSection> sections) {
                     (meant.empty() ? ": use " + all : ": did you mean " + meant + "?"));
 }
 
+void apply_value(std::string_view key, const ConfigValue& value,
+                 std::span<ConfigSection> sections) {
+  const FoundSetting setting = find_setting(key, sections);
+  try {
+    assign(*setting.field, value);
+  } catch (const ConfigError& e) {
+    throw ConfigError(setting.section->name() + '.' + e.what());
+  }
+}
+
 void apply_set(std::string_view assignment, std::span<ConfigSection> sections) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) {

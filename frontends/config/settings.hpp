@@ -23,6 +23,10 @@ FoundSetting find_setting(std::string_view key, std::span<ConfigSection> section
 /// Throws ConfigError for a section [name] that is not among `sections`, with the nearest one.
 [[noreturn]] void refuse_section(std::string_view name, std::span<ConfigSection> sections);
 
+/// Sets the setting that `key` stands for, as find_setting() takes it. Throws ConfigError for that
+/// and for a value that the field refuses.
+void apply_value(std::string_view key, const ConfigValue& value, std::span<ConfigSection> sections);
+
 /// Carries out --set: `assignment` is "key=value", the key as find_setting() takes it. Throws
 /// ConfigError for a missing =, an unknown or ambiguous key, and a value that the field refuses.
 void apply_set(std::string_view assignment, std::span<ConfigSection> sections);

@@ -35,12 +35,7 @@ void set(const std::string& key, const toml::node& node, std::span<ConfigSection
   if (setting.key() != key) {
     throw ConfigError("unknown key " + key + ": did you mean " + setting.key() + "?");
   }
-  const ConfigValue value = value_of(key, node);
-  try {
-    assign(*setting.field, value);
-  } catch (const ConfigError& e) {
-    throw ConfigError(setting.section->name() + '.' + e.what());
-  }
+  apply_value(key, value_of(key, node), sections);
 }
 
 [[noreturn]] void fail(const std::string& file, const toml::source_region& where,

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/python/tables.hpp"
+
+#include <algorithm>
+
+#include "glint/frontends/capi/track_row.hpp"
+
+namespace glint::python {
+namespace {
+
+template <class Row>
+py::array_t<Row> array_of(const std::vector<Row>& rows) {
+  return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
+}
+
+}  // namespace
+
+void register_rows() {
+  PYBIND11_NUMPY_DTYPE(glint_track, frame, time, track_id, tracker, status, x, y, vx, vy, intensity,
+                       existence, var_x, cov_xy, var_y);
+  PYBIND11_NUMPY_DTYPE(TruthPoint, frame, track_id, x, y, vx, vy, intensity);
+}
+
+TrackArray track_array(std::span<const std::vector<TrackPoint>> trackers) {
+  std::vector<glint_track> rows;
+  for (std::size_t i = 0; i < trackers.size(); ++i) {
+    for (const TrackPoint& point : trackers[i]) rows.push_back(track_of(point, i));
+  }
+  return array_of(rows);
+}
+
+TruthArray truth_array(const std::vector<TruthPoint>& truth) { return array_of(truth); }
+
+std::vector<TrackPoint> track_points(const TrackArray& rows) {
+  const auto all = rows.unchecked<1>();
+  std::vector<TrackPoint> points;
+  for (py::ssize_t i = 0; i < all.shape(0); ++i) {
+    const glint_track& row = all(i);
+    TrackPoint point;
+    point.frame = row.frame, point.time = row.time, point.track_id = row.track_id;
+    point.status = static_cast<TrackStatus>(row.status);
+    point.x = row.x, point.y = row.y;
+    points.push_back(point);
+  }
+  return points;
+}
+
+std::vector<TruthPoint> truth_points(const TruthArray& rows) {
+  const auto all = rows.unchecked<1>();
+  std::vector<TruthPoint> points;
+  for (py::ssize_t i = 0; i < all.shape(0); ++i) points.push_back(all(i));
+  return points;
+}
+
+}  // namespace glint::python

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <pybind11/numpy.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "glint/engine/tracks.hpp"
+#include "glint/engine/truth.hpp"
+#include "glint/frontends/capi/glint.h"
+
+namespace glint::python {
+
+namespace py = pybind11;
+
+using TrackArray = py::array_t<glint_track>;
+using TruthArray = py::array_t<TruthPoint>;
+
+/// Tells NumPy what the rows look like; before any array of them is made.
+void register_rows();
+
+/// The trackers' points, one list a tracker, as rows in that order.
+TrackArray track_array(std::span<const std::vector<TrackPoint>> trackers);
+TruthArray truth_array(const std::vector<TruthPoint>& truth);
+
+std::vector<TrackPoint> track_points(const TrackArray& rows);
+std::vector<TruthPoint> truth_points(const TruthArray& rows);
+
+}  // namespace glint::python
