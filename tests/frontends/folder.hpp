@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -15,9 +16,10 @@ class Folder {
  public:
   Folder() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            ("glint_" + std::string(info->test_suite_name()) + "_" + info->name() + "_" +
-             std::to_string(getpid()));
+    std::string name = "glint_" + std::string(info->test_suite_name()) + "_" + info->name() + "_" +
+                       std::to_string(getpid());
+    std::ranges::replace(name, '/', '_');  // of tests with parameters
+    path_ = std::filesystem::temp_directory_path() / name;
     std::filesystem::create_directories(path_);
   }
   ~Folder() {
