@@ -69,7 +69,7 @@ void sample(const Case& c, Probe& probe, Samples& samples) {
     const double before = on_core();
     const double seconds = seconds_a_call(c, samples.calls);
     const double share = (on_core() - before) / (seconds * samples.calls);
-    clean = clean && share > kMinShare && cores_free();
+    clean = clean && (c.elsewhere || share > kMinShare) && cores_free();
     (clean ? samples.clean : samples.disturbed).push_back(seconds);
     if (clean) return;
   }

@@ -18,6 +18,8 @@ struct Case {
   int threads = 1;
   double units = 1;
   std::function<void()> run;
+  /// Other threads or programs do the work: that this thread had a core says nothing.
+  bool elsewhere = false;
 };
 
 /// What a figure should be: what a prototype reached, and what is wanted.

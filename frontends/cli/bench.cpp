@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "glint/frontends/cli/bench_embed.hpp"
 #include "glint/frontends/cli/commands.hpp"
 
 namespace glint::cli {
@@ -116,6 +117,7 @@ void run(const Request& request) {
   const auto results = request.what == "kernels"    ? bench::bench_kernels(options)
                        : request.what == "trackers" ? bench::bench_trackers(options)
                        : request.what == "h-pmht"   ? bench::bench_h_pmht(options)
+                       : request.what == "embed"    ? bench_embed(options)
                                                     : bench::bench_frames(options);
   if (!request.json) return;
   nlohmann::json suites = nlohmann::json::array();
@@ -130,8 +132,8 @@ void add_bench(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "bench", "Measures kernels, trackers or the whole engine beside the machine's limits");
   const auto request = std::make_shared<Request>();
-  command->add_option("what", request->what, "kernels, trackers, frames or h-pmht")
-      ->check(CLI::IsMember({"kernels", "trackers", "frames", "h-pmht"}))
+  command->add_option("what", request->what, "kernels, trackers, frames, h-pmht or embed")
+      ->check(CLI::IsMember({"kernels", "trackers", "frames", "h-pmht", "embed"}))
       ->capture_default_str();
   command->add_option("--size", request->size, "frame size, WIDTHxHEIGHT [px]")
       ->capture_default_str();

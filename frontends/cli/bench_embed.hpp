@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vector>
+
+#include "glint/bench/bench.hpp"
+
+namespace glint::cli {
+
+/// What each way into the engine costs: the time of a 640x512 frame pushed in C++, in C, in Python
+/// and through a pipe, beside the same trackers fed by the plain pipeline. Ways that this machine
+/// lacks are named on standard error.
+std::vector<bench::Result> bench_embed(const bench::Options& options);
+
+}  // namespace glint::cli
