@@ -33,4 +33,15 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME glint-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_COMPONENT_TOOLS_DESCRIPTION "The command line program glint.")
 
+if(GLINT_WITH_PYTHON)
+  # The module is of one minor version of Python, whose name its file carries.
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  list(APPEND CPACK_COMPONENTS_ALL python_package)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_NAME python3-glint)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_DEPENDS "python3-numpy, \
+python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor})")
+  set(CPACK_COMPONENT_PYTHON_PACKAGE_DESCRIPTION "The Python package glint.")
+endif()
+
 include(CPack)

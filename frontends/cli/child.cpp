@@ -40,6 +40,7 @@ Child::Child(const std::vector<std::string>& command, Output output) : name_(com
   std::signal(SIGPIPE, SIG_IGN);
   Pipe in, out;
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t files;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCC=... -DCXX=... -DFLAGS=... [-DPACKAGES=ON] -P run_test.cmake
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCC=... -DCXX=... -DFLAGS=... [-DPACKAGES=ON] [-DPYTHON=...]
+#   -P run_test.cmake
 # Puts the build's installation, or with PACKAGES the contents of its Debian packages, into WORK, then
 # builds and runs the consumers in C++ and C, by find_package and by pkg-config.
 function(run)
@@ -14,7 +15,11 @@ endfunction()
 # The packages' names carry a version and an architecture; each name is written once.
 function(unpack)
   run(${CMAKE_COMMAND} -E chdir ${BUILD} cpack -G DEB -B ${WORK}/packages)
-  foreach(name libglint0.1 libglint-dev glint-tools)
+  set(names libglint0.1 libglint-dev glint-tools)
+  if(PYTHON)
+    list(APPEND names python3-glint)
+  endif()
+  foreach(name IN LISTS names)
     file(GLOB package ${WORK}/packages/${name}_*.deb)
     list(LENGTH package count)
     if(NOT count EQUAL 1)
@@ -60,11 +65,28 @@ function(by_pkg_config name compiler source)
   message(STATUS "pkg-config ${name}: ${output}")
 endfunction()
 
+# Imports the package from where it was put and nowhere else.
+function(by_python)
+  file(GLOB_RECURSE init ${WORK}/prefix/__init__.py)
+  get_filename_component(package "${init}" DIRECTORY)
+  get_filename_component(folder "${package}" DIRECTORY)
+  set(ENV{PYTHONPATH} ${folder})
+  run(${CMAKE_COMMAND} -E chdir ${WORK} ${PYTHON} -B -c
+    "import glint, glint.stonesoup\nglint.Engine('mm-phd')\nprint(glint.__file__)")
+  if(NOT output MATCHES "${WORK}/prefix")
+    message(FATAL_ERROR "another package was imported: ${output}")
+  endif()
+  message(STATUS "python: ${output}")
+endfunction()
+
 file(REMOVE_RECURSE ${WORK})
 if(PACKAGES)
   unpack()
 else()
   install()
+endif()
+if(PYTHON)
+  by_python()
 endif()
 by_find_package()
 by_pkg_config(glint ${CXX} consumer.cpp -std=c++20)
