@@ -203,10 +203,8 @@ void feed(const std::vector<std::string>& command, const MemoryScene& scene, std
 }
 
 /// A frame's time [s]: what more frames cost beyond the program's start and its first ones.
-double piped(const std::vector<std::string>& command, const MemoryScene& scene,
+double piped(const std::vector<std::string>& command, const MemoryScene& scene, std::int64_t first,
              std::int64_t frames) {
-  const std::int64_t first =
-      2 * FramesConfig{}.background_frames;  // the targets are followed by then
   const double start = seconds_of([&] { feed(command, scene, first); });
   const double all = seconds_of([&] { feed(command, scene, first + frames); });
   return (all - start) / static_cast<double>(frames);
