@@ -44,4 +44,11 @@ python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Pyth
   set(CPACK_COMPONENT_PYTHON_PACKAGE_DESCRIPTION "The Python package glint.")
 endif()
 
+if(GLINT_WITH_GSTREAMER)
+  list(APPEND CPACK_COMPONENTS_ALL gstreamer_package)
+  set(CPACK_DEBIAN_GSTREAMER_PACKAGE_PACKAGE_NAME gstreamer1.0-glint)
+  set(CPACK_DEBIAN_GSTREAMER_PACKAGE_PACKAGE_SECTION video)
+  set(CPACK_COMPONENT_GSTREAMER_PACKAGE_DESCRIPTION "The GStreamer element glinttrack.")
+endif()
+
 include(CPack)

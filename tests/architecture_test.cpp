@@ -78,6 +78,9 @@ TEST(Architecture, TomlStaysInConfig) { expect_none(kRooms, {"toml++"}, {"fronte
 TEST(Architecture, PythonStaysInItsFrontEnd) {
   expect_none(kRooms, {"pybind11", "Python.h"}, {"frontends/python/"});
 }
+TEST(Architecture, GStreamerStaysInItsFrontEnd) {
+  expect_none(kRooms, {"gst/", "glib"}, {"frontends/gstreamer/"});
+}
 TEST(Architecture, TbbStaysInKernelsAndTheScheduler) {
   // The tools that count threads may hold a global_control; the library may not.
   const std::vector<std::string_view> headers{"tbb/", "oneapi/tbb"};

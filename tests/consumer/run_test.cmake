@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCC=... -DCXX=... -DFLAGS=... [-DPACKAGES=ON] [-DPYTHON=...]
-#   -P run_test.cmake
+#   [-DGST_INSPECT=...] -P run_test.cmake
 # Puts the build's installation, or with PACKAGES the contents of its Debian packages, into WORK, then
 # builds and runs the consumers in C++ and C, by find_package and by pkg-config.
 function(run)
@@ -18,6 +18,9 @@ function(unpack)
   set(names libglint0.1 libglint-dev glint-tools)
   if(PYTHON)
     list(APPEND names python3-glint)
+  endif()
+  if(GST_INSPECT)
+    list(APPEND names gstreamer1.0-glint)
   endif()
   foreach(name IN LISTS names)
     file(GLOB package ${WORK}/packages/${name}_*.deb)
@@ -79,6 +82,23 @@ function(by_python)
   message(STATUS "python: ${output}")
 endfunction()
 
+# GStreamer finds the plugin in the folder that it was put in and nowhere else.
+function(by_gstreamer)
+  file(GLOB_RECURSE plugin ${WORK}/prefix/libgstglint.so)
+  if(PACKAGES AND NOT plugin MATCHES "/prefix/lib/[^/]+-linux-[^/]+/gstreamer-1.0/")
+    message(FATAL_ERROR "the plugin is not in Debian's folder: ${plugin}")
+  endif()
+  get_filename_component(folder "${plugin}" DIRECTORY)
+  set(ENV{GST_PLUGIN_PATH} ${folder})
+  set(ENV{GST_REGISTRY} ${WORK}/gstreamer_registry.bin)
+  run(${GST_INSPECT} glinttrack)
+  string(FIND "${output}" "${plugin}" found)
+  if(found EQUAL -1)
+    message(FATAL_ERROR "another plugin was loaded:\n${output}")
+  endif()
+  message(STATUS "gst-inspect-1.0: ${plugin}")
+endfunction()
+
 file(REMOVE_RECURSE ${WORK})
 if(PACKAGES)
   unpack()
@@ -87,6 +107,9 @@ else()
 endif()
 if(PYTHON)
   by_python()
+endif()
+if(GST_INSPECT)
+  by_gstreamer()
 endif()
 by_find_package()
 by_pkg_config(glint ${CXX} consumer.cpp -std=c++20)

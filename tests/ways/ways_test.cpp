@@ -13,6 +13,9 @@
 #include "glint/frontends/capi/track_row.hpp"
 #include "glint/frontends/config/run_config.hpp"
 #include "glint/frontends/config/toml.hpp"
+#ifdef GLINT_GST_PLUGINS
+#include "pipeline.hpp"
+#endif
 
 namespace glint::test {
 namespace {
@@ -167,6 +170,22 @@ TEST_P(Ways, Python) {
   expect_same(rows);
 #else
   GTEST_SKIP() << "NOT TESTED: this build has no Python module; configuring says what is missing";
+#endif
+}
+
+TEST_P(Ways, GStreamer) {
+#ifdef GLINT_GST_PLUGINS
+  Pipeline pipeline("filesrc location=" + raw_ + " ! rawvideoparse format=gray16-le width=" +
+                    std::to_string(kWidth) + " height=" + std::to_string(kHeight) +
+                    " framerate=1/1 ! glinttrack config-file=" + config_ +
+                    " tracker=" + GetParam() + " ! fakesink");
+  ASSERT_EQ(pipeline.run(), "");
+  Rows rows;
+  for (const Posted& frame : pipeline.posted) append(rows, frame.tracks);
+  expect_same(rows);
+#else
+  GTEST_SKIP()
+      << "NOT TESTED: this build has no GStreamer plugin; configuring says what is missing";
 #endif
 }
 
