@@ -39,6 +39,7 @@ constexpr const char* kSettings = "[run]\nkeep = 60\n";
 constexpr int kThreads = 2;
 constexpr double kMostOverPlain = 1.02;
 constexpr const char* kPlain = "plain pipeline";
+constexpr const char* kOverPlain = ", time of a frame over the plain one's";
 
 using Scene = std::shared_ptr<const MemoryScene>;
 
@@ -210,6 +211,29 @@ double piped(const std::vector<std::string>& command, const MemoryScene& scene, 
   return (all - start) / static_cast<double>(frames);
 }
 
+/// GStreamer's program with the plugin of the build folder, or the installed one.
+std::vector<std::string> with_plugin(std::vector<std::string> command) {
+  const char* path = std::getenv("GST_PLUGIN_PATH");
+  const std::string plugin = (program().parent_path().parent_path() / "gstreamer").string();
+  command.insert(command.begin(), {"env", "GST_PLUGIN_PATH=" + plugin +
+                                              (path != nullptr ? std::string(":") + path : "")});
+  return command;
+}
+
+/// Nothing where GStreamer or the plugin is missing.
+std::vector<std::string> gstreamer_command() {
+  if (Child(with_plugin({"gst-inspect-1.0", "glinttrack"}), Child::Output::dropped).wait() != 0) {
+    fmt::print(stderr, "bench: GStreamer left out: no gst-inspect-1.0 that knows glinttrack\n");
+    return {};
+  }
+  const std::string width = fmt::format("width={}", kWidth),
+                    height = fmt::format("height={}", kHeight);
+  const std::string frame = fmt::format("blocksize={}", 2 * kWidth * kHeight);
+  return with_plugin({"gst-launch-1.0", "-q", "fdsrc", "fd=0", frame, "!", "rawvideoparse",
+                      "format=gray16-le", width, height, "framerate=1/1", "!", "glinttrack",
+                      std::string("tracker=") + kTracker, "set=run.keep=60", "!", "fakesink"});
+}
+
 std::vector<std::string> pipe_command() {
   return {program().string(),
           "track",
@@ -240,8 +264,7 @@ std::vector<bench::Result> bench_embed(const bench::Options& options) {
     way(FramesConfig{}.background_frames);
     suite.add({name, kThreads, static_cast<double>(frames), [way, frames] { way(frames); }, true});
     if (name == kPlain) return;
-    suite.ratio(name + ", time of a frame over the plain pipeline's", kPlain, name,
-                {{}, kMostOverPlain, true});
+    suite.ratio(name + kOverPlain, kPlain, name, {{}, kMostOverPlain, true});
   };
   const auto plain =
       std::make_shared<bench::WarmEngine>(scene, std::vector<std::string>{kTracker}, Device::tbb());
@@ -253,10 +276,14 @@ std::vector<bench::Result> bench_embed(const bench::Options& options) {
       measure(suite, options.quick ? bench::Budget{3, 2} : bench::Budget{25, 40});
   // By the end of the first frames the targets are followed.
   const std::int64_t first = (options.quick ? 1 : 2) * FramesConfig{}.background_frames;
-  const double pipe = piped(pipe_command(), *scene, first, options.quick ? 16 : 256);
-  result.timings.push_back(bench::one_timing("pipe, glint track -", kThreads, pipe, 1));
-  result.figures.push_back(
-      {"pipe, time of a frame over the plain pipeline's", pipe * result.timings.front().rate, {}});
+  for (const auto& [name, command] : {std::pair{"pipe, glint track -", pipe_command()},
+                                      std::pair{"GStreamer, glinttrack", gstreamer_command()}}) {
+    if (command.empty()) continue;
+    const double seconds = piped(command, *scene, first, options.quick ? 16 : 256);
+    result.timings.push_back(bench::one_timing(name, kThreads, seconds, 1));
+    result.figures.push_back(
+        {std::string(name) + kOverPlain, seconds * result.timings.front().rate, {}});
+  }
   if (options.done) options.done(result);
   return {result};
 }

@@ -6,9 +6,9 @@
 
 namespace glint::cli {
 
-/// What each way into the engine costs: the time of a 640x512 frame pushed in C++, in C, in Python
-/// and through a pipe, beside the same trackers fed by the plain pipeline. Ways that this machine
-/// lacks are named on standard error.
+/// What each way into the engine costs: the time of a 640x512 frame pushed in C++, in C, in Python,
+/// through a pipe and through GStreamer, beside the same trackers fed by the plain pipeline. Ways
+/// that this machine lacks are named on standard error.
 std::vector<bench::Result> bench_embed(const bench::Options& options);
 
 }  // namespace glint::cli

@@ -23,6 +23,9 @@ TEST(BenchEmbed, MeasuresEveryWay) {
 #ifdef GLINT_PYTHON
   expected.insert("Python");
 #endif
+#ifdef GLINT_GST_PLUGINS
+  expected.insert("GStreamer");
+#endif
   EXPECT_EQ(ways, expected);
   EXPECT_EQ(suite["figures"].size(), expected.size() - 1);
 }
