@@ -21,7 +21,7 @@ inline constexpr int kMinSide = 256;
 struct Options {
   FrameSize size = kReferenceSize;
   bool quick = false;                            ///< fewer samples, no growth over sizes
-  std::optional<Device> egl = {};                ///< kernels: compares this device with the others
+  std::optional<Device> egl = {};                ///< kernels, frames: measures this device instead
   std::function<void(const Result&)> done = {};  ///< called with each suite as it ends
 };
 
@@ -35,6 +35,9 @@ Result bench_point_trackers(const Options& options);
 /// rate of its kernels alone; then mm-phd and pmht-imm on one stream beside each of them alone.
 std::vector<Result> bench_frames(const Options& options);
 Result bench_together(const Options& options);
+/// smc-phd with 100 targets and 1e6 particles (2e4 if quick) on options.egl [frames/s]: the shares
+/// of upload, kernels and read-back, and the bytes that travel. What bench_frames() is on egl.
+Result bench_egl_frames(const Options& options);
 /// H-PMHT: one target against full frames in double, the tracker with 100 targets, and what an
 /// iteration costs by targets and pixels.
 std::vector<Result> bench_h_pmht(const Options& options);

@@ -54,8 +54,11 @@ Result bench_engine(const Options& options) {
 }  // namespace
 
 std::vector<Result> bench_frames(const Options& options) {
+  using Bench = Result (*)(const Options&);
+  std::vector<Bench> benches{bench_engine, bench_together};
+  if (options.egl) benches = {bench_egl_frames};
   std::vector<Result> results;
-  for (Result (*const run)(const Options&) : {bench_engine, bench_together}) {
+  for (const Bench run : benches) {
     results.push_back(run(options));
     if (options.done) options.done(results.back());
   }

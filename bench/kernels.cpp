@@ -11,6 +11,8 @@ std::vector<Result> bench_kernels(const Options& options) {
     if (options.done) options.done(results.back());
   };
   if (options.egl) {
+    results.push_back(egl_bandwidth(*options.egl, options.size, options.quick));
+    if (options.done) options.done(results.back());
     run(egl_trials(*options.egl));
     return results;
   }

@@ -29,5 +29,8 @@ Suite cell_integrals_growth();
 Suite kernel_trials();
 /// The same trials of the kernels that an egl device runs itself, on it and on tbb.
 Suite egl_trials(const Device& egl);
+/// The kernels that a scan's time goes to, on large problems: their shaders alone, and with what
+/// travels both ways, beside the device's own copy of a buffer and beside tbb.
+Result egl_bandwidth(const Device& egl, FrameSize size, bool quick);
 
 }  // namespace glint::bench

@@ -94,8 +94,10 @@ nlohmann::json to_json(const Result& result) {
 
 std::optional<Device> egl_device(const Request& request) {
   if (request.device == "tbb" || request.device == "auto") return std::nullopt;
-  if (!request.device.starts_with("egl") || request.what != "kernels") {
-    throw UsageError("--device is tbb, or egl or egl:N with kernels, got " + request.device);
+  const bool measured = request.what == "kernels" || request.what == "frames";
+  if (!request.device.starts_with("egl") || !measured) {
+    throw UsageError("--device is tbb, or egl or egl:N with kernels and frames, got " +
+                     request.device);
   }
   try {
     return Device::named(request.device);
@@ -137,7 +139,7 @@ void add_bench(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--size", request->size, "frame size, WIDTHxHEIGHT [px]")
       ->capture_default_str();
-  command->add_option("--device", request->device, "tbb; kernels also on egl or egl:N, beside tbb")
+  command->add_option("--device", request->device, "tbb; kernels and frames also on egl or egl:N")
       ->capture_default_str();
   command->add_flag("--quick", request->quick, "fewer samples, no growth over sizes");
   command->add_flag("--json", request->json, "print JSON instead of tables");
@@ -145,6 +147,7 @@ void add_bench(CLI::App& app) {
       "Examples:\n"
       "  glint bench kernels\n"
       "  glint bench kernels --device egl\n"
+      "  glint bench frames --device egl --quick\n"
       "  glint bench frames --size 4096x4096 --json");
   command->callback([request] { run(*request); });
 }

@@ -107,7 +107,8 @@ void calibrate(Request request) {
   const auto points = std::ranges::find(job.sections, "points", &ConfigSection::name);
   if (points != job.sections.end()) options.points = points->as<PointsConfig>();
   options.seed = static_cast<std::uint64_t>(job.run().seed);
-  options.device = job.device.kind();
+  // What auto takes for one run is not for many at once.
+  options.device = job.auto_note.empty() ? job.device.kind() : DeviceKind::tbb;
   if (options.device == DeviceKind::egl) {
     throw UsageError("calibrate runs many trials at once, on auto, serial or tbb, not on egl");
   }

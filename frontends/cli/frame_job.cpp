@@ -12,6 +12,7 @@
 #include "glint/frontends/files/noisy_source.hpp"
 #include "glint/frontends/files/open_source.hpp"
 #include "glint/frontends/files/points_source.hpp"
+#include "glint/kernels/auto_device.hpp"
 #include "glint/kernels/prepare_frame/prepare_frame.hpp"
 
 namespace glint::cli {
@@ -43,9 +44,12 @@ void add_run_option(CLI::App& command, FrameOptions& options, const char* option
       option, [&options, key](const std::string& v) { options.run.emplace_back(key, v); }, help);
 }
 
-Device make_device(const RunConfig& run) {
+AutoChoice make_device(const RunConfig& run) {
   try {
-    return Device::named(run.device, run.threads);
+    if (run.device != "auto") return {Device::named(run.device, run.threads), ""};
+    AutoChoice choice = choose_device(run.threads);
+    if (choice.failed) warn("device auto: " + choice.why);
+    return choice;
   } catch (const std::invalid_argument& e) {
     throw UsageError(e.what());
   }
@@ -170,8 +174,12 @@ FrameJob settle(const FrameOptions& options, const std::vector<std::string>& mor
   std::vector<std::string> trackers = trackers_of(run.as<RunConfig>());
   auto used = used_sections(all, trackers, further_sections(options.inputs, more));
   for (const auto& set : options.sets) apply_set(set, used);
-  return {options.inputs, std::move(trackers), std::move(used), make_device(run.as<RunConfig>()),
-          options.quiet};
+  AutoChoice choice = make_device(run.as<RunConfig>());
+  // Results depend on the kind of device, so tracks say which one it was.
+  const bool chosen = !choice.why.empty() && choice.device.kind() == DeviceKind::egl;
+  if (chosen) apply_set("run.device=egl", used);
+  return {options.inputs, std::move(trackers), std::move(used),
+          choice.device,  options.quiet,       chosen ? std::move(choice.why) : ""};
 }
 
 std::unique_ptr<Source> open_frames(const FrameJob& job) {

@@ -9,6 +9,7 @@
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/kernels/all.hpp"
+#include "glint/kernels/auto_device.hpp"
 #include "glint/kernels/core/device.hpp"
 #ifdef GLINT_WITH_OPENCV
 #include "glint/frontends/video/video_file.hpp"
@@ -48,8 +49,10 @@ void print_info() {
   fmt::print("instruction sets  {} (best: {})\n", isas(), name(best_isa()));
   fmt::print("threads           {}\n", Device::tbb().workers().threads());
   fmt::print("devices           {}\n", Device::serial().description());
-  fmt::print("                  {} (auto)\n", Device::tbb().description());
+  fmt::print("                  {}\n", Device::tbb().description());
   print_egl_devices();
+  const AutoChoice choice = choose_device(0);
+  fmt::print("auto              {}: {}\n", name(choice.device.kind()), choice.why);
   fmt::print("kernels          ");
   for (const KernelEntry& kernel : all_kernels()) fmt::print(" {}", kernel.name);
   fmt::print("\n  of them on egl ");

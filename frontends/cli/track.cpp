@@ -62,6 +62,7 @@ void print_summary(const FrameJob& job, const Scheduler& scheduler, double secon
   fmt::print(to, "frames     {} in {:.2f} s: {:.0f} frames/s, {:.3g} x the source's {:.4g}\n",
              frames, seconds, rate, rate / frame_rate, frame_rate);
   fmt::print(to, "device     {}, seed {}\n", job.device.description(), job.run().seed);
+  if (!job.auto_note.empty()) fmt::print(to, "auto       {}\n", job.auto_note);
   for (std::size_t i = 0; i < job.trackers.size(); ++i) {
     const auto [confirmed, tentative] = count_tracks(*scheduler.logs()[i]);
     fmt::print(to, "tracks     {}: {} confirmed, {} never more than tentative\n", job.trackers[i],

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/kernels/core/egl_devices.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "glint/kernels/core/device.hpp"
+#include "glint/kernels/core/egl_hardware.hpp"
 #include "glint/kernels/core/gl_context.hpp"
 
 namespace glint {
@@ -83,6 +86,19 @@ EglDevices egl_devices() {
   }
   return found;
 }
+
+bool lists_hardware() {
+  try {
+    const Egl egl = gl::open_egl();
+    return std::ranges::any_of(candidates_of(egl), [&](const Candidate& candidate) {
+      return candidate.device != nullptr && !gl::calls_itself_software(egl, candidate.device);
+    });
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+bool is_software(const Device& egl) { return egl.context().device().software; }
 
 std::shared_ptr<gl::Context> open_egl_device(int number) {
   const Egl egl = gl::open_egl();

@@ -87,12 +87,18 @@ Api load_api(const Egl& egl) {
   load(api.BindBuffer, "glBindBuffer");
   load(api.BindBufferBase, "glBindBufferBase");
   load(api.BufferData, "glBufferData");
+  load(api.CopyBufferSubData, "glCopyBufferSubData");
   load(api.MapBufferRange, "glMapBufferRange");
   load(api.UnmapBuffer, "glUnmapBuffer");
   load(api.DispatchCompute, "glDispatchCompute");
   load(api.MemoryBarrier, "glMemoryBarrier");
   load(api.Finish, "glFinish");
   return api;
+}
+
+bool calls_itself_software(const Egl& egl, Handle device) {
+  return has_extension(egl.QueryDeviceStringEXT(device, Egl::kExtensions),
+                       "EGL_MESA_device_software");
 }
 
 bool has_extension(const char* list, const char* name) {

@@ -40,7 +40,8 @@ struct Api {
   static constexpr Enum kComputeShader = 0x91B9, kCompileStatus = 0x8B81, kLinkStatus = 0x8B82;
   static constexpr Enum kNumProgramFormats = 0x87FE, kProgramBinaryLength = 0x8741,
                         kProgramRetrievable = 0x8257;
-  static constexpr Enum kStorageBuffer = 0x90D2, kCopyBuffer = 0x8F37, kDynamicCopy = 0x88EA;
+  static constexpr Enum kStorageBuffer = 0x90D2, kCopySource = 0x8F36, kCopyBuffer = 0x8F37,
+                        kDynamicCopy = 0x88EA;
   static constexpr Enum kMaxStorageBlock = 0x90DE;
   static constexpr unsigned kMapRead = 1, kMapWrite = 2, kMapInvalidate = 4;
   static constexpr unsigned kAllBarriers = 0xFFFFFFFF;
@@ -79,6 +80,8 @@ struct Api {
   void (*BindBuffer)(Enum target, unsigned buffer);
   void (*BindBufferBase)(Enum target, unsigned index, unsigned buffer);
   void (*BufferData)(Enum target, std::ptrdiff_t size, const void* data, Enum usage);
+  void (*CopyBufferSubData)(Enum from, Enum to, std::ptrdiff_t at, std::ptrdiff_t to_at,
+                            std::ptrdiff_t size);
   void* (*MapBufferRange)(Enum target, std::ptrdiff_t offset, std::ptrdiff_t size, unsigned access);
   unsigned char (*UnmapBuffer)(Enum target);
   void (*DispatchCompute)(unsigned x, unsigned y, unsigned z);
@@ -91,6 +94,8 @@ Egl open_egl();
 /// The functions of the context that is current on this thread. Throws std::runtime_error that
 /// names a missing one.
 Api load_api(const Egl& egl);
+/// Whether EGL says so of a device, before it is opened.
+bool calls_itself_software(const Egl& egl, Handle device);
 /// Whether a list of extensions, separated by blanks, holds `name`; null is an empty list.
 bool has_extension(const char* list, const char* name);
 

@@ -80,11 +80,7 @@ std::uint64_t memory_of(const Api& api) {
 }
 
 bool is_software(const Egl& egl, Candidate candidate, const std::string& renderer) {
-  if (candidate.device != nullptr &&
-      has_extension(egl.QueryDeviceStringEXT(candidate.device, Egl::kExtensions),
-                    "EGL_MESA_device_software")) {
-    return true;
-  }
+  if (candidate.device != nullptr && calls_itself_software(egl, candidate.device)) return true;
   for (const char* name : {"llvmpipe", "softpipe", "SwiftShader", "Software Rasterizer"}) {
     if (renderer.find(name) != std::string::npos) return true;
   }

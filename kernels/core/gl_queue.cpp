@@ -142,6 +142,24 @@ void Queue::read_bytes(const Buffer& from, std::size_t offset, std::size_t bytes
   });
 }
 
+double Queue::copy_seconds(std::size_t bytes, int times) {
+  const Buffer from = take(bytes), to = take(bytes);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < times; ++i) {
+    api_.Finish();
+    const auto start = std::chrono::steady_clock::now();
+    api_.BindBuffer(Api::kCopySource, from.id_);
+    api_.BindBuffer(Api::kCopyBuffer, to.id_);
+    api_.CopyBufferSubData(Api::kCopySource, Api::kCopyBuffer, 0, 0,
+                           static_cast<std::ptrdiff_t>(bytes));
+    api_.Finish();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    least = std::min(least, taken.count());
+    check("while copying " + size_text(bytes));
+  }
+  return least;
+}
+
 std::uint32_t Queue::sum_before(const Buffer& counts, std::size_t count) {
   scratch_.resize(count);
   read(counts, std::span(scratch_));

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "glint/kernels/core/device_traffic.hpp"
 #include "glint/kernels/core/egl_devices.hpp"
 #include "glint/kernels/core/frame.hpp"
 #include "glint/kernels/core/function_ref.hpp"
@@ -55,12 +56,6 @@ ImageView<T> rows(const ImageView<T>& image, int first, int last) {
   return {image.row(first), image.width, last - first, image.pitch};
 }
 
-/// Wall clock [s] and bytes of what a queue did while it was timed.
-struct Traffic {
-  double upload = 0, compute = 0, read_back = 0;
-  std::size_t uploaded = 0, read = 0;
-};
-
 /// What kernels say to a context, on its thread only. Work is done in the order that it is given;
 /// reading waits for it. Every function throws std::runtime_error that names the device and the
 /// remedy if memory runs out, the context is lost or a shader does not compile.
@@ -76,10 +71,10 @@ class Queue {
   /// Makes the limit smaller than the driver's.
   void limit(std::size_t bytes) { max_bytes_ = std::min(max_bytes_, bytes); }
 
-  /// Starts to keep the times of the queue's work, from nothing, or stops. While they are kept
-  /// every piece of work is waited for, so that each has its own time and none overlaps another.
+  /// See device_traffic.hpp.
   void time_traffic(bool timed) { timed_ = timed, traffic_ = {}; }
-  const Traffic& traffic() const { return traffic_; }
+  const DeviceTraffic& traffic() const { return traffic_; }
+  double copy_seconds(std::size_t bytes, int times);
 
   /// Uninitialised memory for `count` values.
   template <class T>
@@ -175,7 +170,7 @@ class Queue {
   const EglDevice& device_;
   std::size_t max_bytes_ = 0;
   bool timed_ = false;
-  Traffic traffic_;
+  DeviceTraffic traffic_;
   std::vector<Free> pool_;
   std::vector<std::uint32_t> scratch_;
   Programs programs_;

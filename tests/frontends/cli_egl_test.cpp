@@ -22,6 +22,7 @@ void expect_no_egl(const Folder& folder, const std::string& environment, const s
   const Result info = glint(folder, "info", environment);
   EXPECT_EQ(info.code, 0) << info.err;
   EXPECT_TRUE(has(info.out, "no EGL device: ")) << info.out;
+  EXPECT_TRUE(has(info.out, "tbb: there is no GPU")) << info.out;
   const Result run = glint(folder, kTrack + "--out " + (folder / "t.csv"), environment);
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_FALSE(content_of(folder / "t.csv").empty());
@@ -54,6 +55,9 @@ TEST(CliEgl, InfoListsDevicesAndWhichKernelsRunThere) {
   EXPECT_EQ(info.code, 0) << info.err;
   EXPECT_TRUE(has(info.out, device.description())) << info.out;
   EXPECT_TRUE(has(info.out, "of them on egl  prepare_frame pixel_likelihood")) << info.out;
+  if (device.context().device().software) {  // then no device is hardware
+    EXPECT_TRUE(has(info.out, "tbb: there is no GPU")) << info.out;
+  }
 }
 
 TEST(CliEgl, TracksOnTheDevice) {

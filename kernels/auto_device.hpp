@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "glint/kernels/core/device.hpp"
+
+namespace glint {
+
+/// What `auto` asks of a machine; tests put another in its place.
+struct AutoProbe {
+  /// An egl device of hardware, nothing where there is none; throws where there is one that does
+  /// not open.
+  std::function<std::optional<Device>(int threads)> hardware;
+  /// Time [s] that a device takes for the calibration's kernels; throws what they throw.
+  std::function<double(const Device&)> seconds;
+};
+AutoProbe this_machine();
+
+struct AutoChoice {
+  Device device;
+  std::string why;      ///< one line
+  bool failed = false;  ///< there is hardware, but it does not work: worth a warning
+};
+/// tbb, unless the machine has a GPU of hardware that takes less than kAutoShare of tbb's time for
+/// the same kernels, with what travels both ways. `threads` as Device::tbb() takes them.
+AutoChoice choose_device(int threads, const AutoProbe& probe = this_machine());
+
+/// A GPU that is as fast as the processor would only make runs differ from day to day.
+inline constexpr double kAutoShare = .8;
+
+}  // namespace glint
