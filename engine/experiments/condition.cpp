@@ -22,13 +22,12 @@ std::vector<Runs> run_conditions(std::span<const Condition> conditions,
                                  const ExperimentOptions& options, Workers& workers,
                                  ExperimentResult& result) {
   std::vector<Runs> all =
-      run_cases(conditions.size(), static_cast<std::size_t>(options.runs), workers,
-                options.progress, [&](std::size_t which, std::size_t run) {
-                  const Condition& condition = conditions[which];
-                  SceneRunOptions of_run = condition.options;
-                  of_run.device = options.device;
-                  return run_scene(condition.scene, condition.setup, options.seed + run, of_run);
-                });
+      run_cases(conditions.size(), options, workers, [&](std::size_t which, std::size_t run) {
+        const Condition& condition = conditions[which];
+        SceneRunOptions of_run = condition.options;
+        of_run.device = options.device;
+        return run_scene(condition.scene, condition.setup, options.seed + run, of_run);
+      });
   for (std::size_t which = 0; which < conditions.size(); ++which) {
     const Condition& condition = conditions[which];
     for (const Figure& figure : condition.figures) {

@@ -13,6 +13,9 @@
 
 namespace glint {
 
+class RunStore;
+class RunTeam;
+
 /// Where a figure must lie; an end that is missing is open.
 struct Band {
   std::optional<double> low, high;
@@ -56,6 +59,8 @@ struct ExperimentOptions {
   std::optional<Device> device = {};
   /// Called with runs done and runs in all, from any thread, one call at a time.
   std::function<void(int done, int total)> progress;
+  RunStore* store = nullptr;  ///< keeps finished runs, and has those that need not be repeated
+  RunTeam* team = nullptr;    ///< processes to share the runs with
 };
 
 /// How an experiment is found by name and run.
@@ -73,7 +78,7 @@ const ExperimentEntry& find_experiment(std::string_view name,
                                        std::span<const ExperimentEntry> list = all_experiments());
 
 /// Runs it. The result depends on runs and seed alone, never on the number of workers.
-/// Throws ConfigError for less than no runs.
+/// Throws ConfigError for less than no runs, RunsTakenElsewhere in a team that another leads.
 ExperimentResult run_experiment(const ExperimentEntry& entry, ExperimentOptions options,
                                 Workers& workers);
 

@@ -65,12 +65,9 @@ std::vector<double> column(const std::vector<AircraftRun>& runs, double Aircraft
 std::vector<std::vector<AircraftRun>> run_all(const std::vector<Case>& cases,
                                               const ExperimentOptions& options, Workers& workers,
                                               ExperimentResult& result) {
-  auto runs =
-      run_cases(cases.size(), static_cast<std::size_t>(options.runs), workers, options.progress,
-                [&](std::size_t which, std::size_t run) {
-                  return cases[which].run(options.seed + run,
-                                          options.device ? *options.device : Device::tbb(1));
-                });
+  auto runs = run_cases(cases.size(), options, workers, [&](std::size_t which, std::size_t run) {
+    return cases[which].run(options.seed + run, options.device ? *options.device : Device::tbb(1));
+  });
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& c = cases[i];
     result.rows.push_back(value_row(c.name, "hit on target [%]", column(runs[i], &AircraftRun::hit),

@@ -81,10 +81,10 @@ Run follow(const JpdaReading& reading, std::uint64_t seed) {
 }  // namespace
 
 ExperimentResult run_jpda_coalescence(const ExperimentOptions& options, Workers& workers) {
-  const auto runs = run_cases(kReadings.size(), static_cast<std::size_t>(options.runs), workers,
-                              options.progress, [&](std::size_t which, std::size_t run) {
-                                return follow(kReadings[which], options.seed + run);
-                              });
+  const auto runs =
+      run_cases(kReadings.size(), options, workers, [&](std::size_t which, std::size_t run) {
+        return follow(kReadings[which], options.seed + run);
+      });
   ExperimentResult result;
   for (std::size_t r = 0; r < kReadings.size(); ++r) {
     std::vector<double> merged, after, since, lost, swapped;

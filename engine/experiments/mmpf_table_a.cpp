@@ -90,8 +90,8 @@ void add_rows(const Line& line, std::size_t clip, const std::vector<FollowedRun>
 }  // namespace
 
 ExperimentResult run_mmpf_table_a(const ExperimentOptions& options, Workers& workers) {
-  const auto runs = run_cases(kLines.size() * kClips.size(), static_cast<std::size_t>(options.runs),
-                              workers, options.progress, [&](std::size_t which, std::size_t run) {
+  const auto runs = run_cases(kLines.size() * kClips.size(), options, workers,
+                              [&](std::size_t which, std::size_t run) {
                                 return follow(kLines[which / kClips.size()],
                                               kClips[which % kClips.size()], options.seed + run);
                               });

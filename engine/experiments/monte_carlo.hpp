@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
-#include <utility>
+#include <string>
 #include <vector>
 
+#include "glint/engine/experiments/run_bytes.hpp"
+#include "glint/engine/experiments/runs.hpp"
 #include "glint/kernels/core/workers.hpp"
 
 namespace glint {
@@ -27,17 +29,19 @@ auto run_jobs(std::size_t jobs, Workers& workers,
   return results;
 }
 
-/// f(which, run) for every case and run: result[which][run]. Runs are outermost, so that threads
-/// share slow and fast cases evenly.
+/// f(which, run) for every case and every run of the options: result[which][run]. The one place
+/// that experiments run through: it keeps finished runs and spreads them over processes as the
+/// options say. Results travel as bytes (run_bytes.hpp), kept or not.
 template <class F>
-auto run_cases(std::size_t cases, std::size_t runs, Workers& workers,
-               const std::function<void(int done, int total)>& progress, const F& f) {
-  auto jobs = run_jobs(cases * runs, workers, progress,
-                       [&](std::size_t job) { return f(job % cases, job / cases); });
-  std::vector<decltype(jobs)> by_case(cases);
-  for (std::size_t job = 0; job < jobs.size(); ++job) {
-    by_case[job % cases].push_back(std::move(jobs[job]));
-  }
+auto run_cases(std::size_t cases, const ExperimentOptions& options, Workers& workers, const F& f) {
+  using Result = decltype(f(std::size_t{0}, std::size_t{0}));
+  std::vector<std::vector<Result>> by_case(
+      cases, std::vector<Result>(static_cast<std::size_t>(options.runs)));
+  do_runs(
+      cases, options, workers, [&](RunId id) { return run_bytes(f(id.which, id.run)); },
+      [&](RunId id, const std::string& bytes) {
+        by_case[id.which][id.run] = run_of_bytes<Result>(bytes);
+      });
   return by_case;
 }
 

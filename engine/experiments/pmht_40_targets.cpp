@@ -45,10 +45,10 @@ std::vector<double> mean_errors(const std::vector<FollowedRun>& runs) {
 
 ExperimentResult run_pmht_40_targets(const ExperimentOptions& options, Workers& workers) {
   constexpr std::array kCases{Case{"no clutter", 0, 1.5}, Case{".02 % clutter", 0.02, 1.5}};
-  const auto runs = run_cases(kCases.size(), static_cast<std::size_t>(options.runs), workers,
-                              options.progress, [&](std::size_t which, std::size_t run) {
-                                return follow(kCases[which], options.seed + run);
-                              });
+  const auto runs =
+      run_cases(kCases.size(), options, workers, [&](std::size_t which, std::size_t run) {
+        return follow(kCases[which], options.seed + run);
+      });
   ExperimentResult result;
   for (std::size_t i = 0; i < kCases.size(); ++i) {
     std::vector<double> lost = lost_shares(runs[i]);

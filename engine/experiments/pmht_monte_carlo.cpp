@@ -64,10 +64,9 @@ ExperimentResult run_pmht_monte_carlo(const ExperimentOptions& options, Workers&
   for (PmhtConfig& config : configs) start_on_targets(config, 0);
   configs[1].measurement_variance = 2.25;
   const auto runs =
-      run_cases(configs.size(), static_cast<std::size_t>(options.runs), workers, options.progress,
-                [&](std::size_t which, std::size_t run) {
-                  return follow_points(scene(), sensor(), configs[which], options.seed + run);
-                });
+      run_cases(configs.size(), options, workers, [&](std::size_t which, std::size_t run) {
+        return follow_points(scene(), sensor(), configs[which], options.seed + run);
+      });
   ExperimentResult result;
   add_errors(runs[0], result);
   add_normalised(runs[1], result);

@@ -153,10 +153,10 @@ void add_rows(const Line& line, const std::vector<FollowedRun>& runs, Experiment
 
 ExperimentResult run_pmht_table_1(const ExperimentOptions& options, Workers& workers) {
   const std::vector<Line> all = lines();
-  const auto runs = run_cases(all.size(), static_cast<std::size_t>(options.runs), workers,
-                              options.progress, [&](std::size_t which, std::size_t run) {
-                                return follow_all(all[which], options.seed + run);
-                              });
+  const auto runs =
+      run_cases(all.size(), options, workers, [&](std::size_t which, std::size_t run) {
+        return follow_all(all[which], options.seed + run);
+      });
   ExperimentResult result;
   for (std::size_t i = 0; i < all.size(); ++i) add_rows(all[i], runs[i], result);
   return result;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "glint/engine/experiments/experiment.hpp"
+#include "glint/engine/experiments/run_bytes.hpp"
 #include "glint/engine/scenario/point_sensor.hpp"
 #include "glint/engine/trackers/mmpf_pmht.hpp"
 
@@ -18,6 +19,9 @@ struct FollowedTarget {
   bool lost = false;  ///< expected more than 14 px away three frames in a row, or at the end
   std::vector<double> normalised;  ///< errors of x and y over their standard deviations, by frame
 };
+auto fields(OneOf<FollowedTarget> auto& t) {
+  return std::tie(t.prediction_error, t.estimation_error, t.lost, t.normalised);
+}
 
 using FollowedRun = std::vector<FollowedTarget>;  ///< by target
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "glint/engine/experiments/evaluation_bytes.hpp"
 #include "glint/engine/experiments/tracker_setup.hpp"
 #include "glint/engine/metrics/evaluation.hpp"
 #include "glint/engine/mode_probability.hpp"
@@ -20,11 +21,13 @@ struct TargetRecord {
   std::vector<ModeProbability> modes;  ///< empty there
   double halted = kUndefined;          ///< frame at which the last track that counts for it ended
 };
+auto fields(OneOf<TargetRecord> auto& r) { return std::tie(r.error, r.modes, r.halted); }
 
 struct SceneScore {
   Evaluation scores;
   std::vector<TargetRecord> targets;  ///< in the order of the scene's
 };
+auto fields(OneOf<SceneScore> auto& s) { return std::tie(s.scores, s.targets); }
 
 /// A tracker's run over a scene, as it was reported at the time and as it was revised later.
 struct SceneRun {
@@ -33,6 +36,9 @@ struct SceneRun {
   std::vector<int> targets;      ///< that are there, by frame
   std::vector<double> observed;  ///< by frame, if asked for
 };
+auto fields(OneOf<SceneRun> auto& r) {
+  return std::tie(r.online, r.revised, r.mode_names, r.targets, r.observed);
+}
 
 struct SceneRunOptions {
   bool include_tentative = false;               ///< score tentative points too

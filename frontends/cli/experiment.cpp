@@ -14,12 +14,13 @@
 #include "glint/frontends/cli/curves.hpp"
 #include "glint/frontends/cli/run_progress.hpp"
 #include "glint/frontends/experiments/recorded.hpp"
+#include "glint/frontends/experiments/run_file.hpp"
 
 namespace glint::cli {
 namespace {
 
 struct Request {
-  std::string name, out, device = "auto";
+  std::string name, out, keep, device = "auto";
   ExperimentOptions options;
   int threads = 0;
   bool json = false;
@@ -109,6 +110,21 @@ std::optional<Device> device_of(const Request& request, const ExperimentEntry& e
   }
 }
 
+/// Where finished runs are kept; nothing if they are not to be.
+std::unique_ptr<RunFile> open_store(const Request& request, const ExperimentEntry& entry,
+                                    const std::optional<Device>& device) {
+  if (request.keep.empty()) return nullptr;
+  const std::string where = device ? request.device : "threads";
+  const ExperimentOptions& options = request.options;
+  RunOrigin origin{fmt::format("experiment {}", entry.name), "version " GLINT_VERSION,
+                   "program " + program_digest(), fmt::format("seed {}", options.seed),
+                   "device " + where};
+  if (!options.data.empty()) origin.push_back("data " + options.data);
+  const std::string folder = output_folder(request.keep).string();
+  return std::make_unique<RunFile>(
+      run_file_name(folder, std::string(entry.name), options.seed, where), origin);
+}
+
 void run(const Request& request) {
   const std::vector<ExperimentEntry> known = experiments();
   const ExperimentEntry& entry = find_experiment(request.name, known);
@@ -117,6 +133,8 @@ void run(const Request& request) {
   ExperimentOptions options = request.options;
   options.device = device_of(request, entry);
   options.progress = run_progress();
+  const std::unique_ptr<RunFile> store = open_store(request, entry, options.device);
+  options.store = store.get();
   Workers workers(request.threads);
   const ExperimentResult result = run_experiment(entry, options, workers);
   if (request.json) {
@@ -158,6 +176,8 @@ void add_experiment(CLI::App& app) {
   command->add_option("--data", request->options.data,
                       "Folder of recorded data, where one is needed");
   command->add_option("--out", request->out, "Folder for the curves: CSV and a picture");
+  command->add_option("--keep", request->keep,
+                      "Folder that keeps finished runs, which are not repeated");
   command->add_option("--threads", request->threads, "Threads; 0 = all, the result is the same")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--json", request->json, "Print JSON instead of a table");

@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 
-#include "glint/engine/metrics/evaluation.hpp"
+#include "glint/engine/experiments/evaluation_bytes.hpp"
 #include "glint/engine/trackers/imm_jpda.hpp"
 #include "glint/frontends/files/autoferry.hpp"
 
@@ -32,6 +32,7 @@ struct BoatScore {
   int lost = 0;     ///< boats whose own track is more than 20 m off at the end, or has ended
   int swapped = 0;  ///< boats whose own track is with the other one at the end
 };
+auto fields(OneOf<BoatScore> auto& s) { return std::tie(s.scores, s.coverage, s.lost, s.swapped); }
 
 /// Steps the tracker over the scans. Unless the tracker initiates by itself, every boat is started
 /// where it is when it comes within reach. Tracks beyond `reach` [m] of the ship do not count.

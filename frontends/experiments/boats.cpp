@@ -165,8 +165,7 @@ ExperimentResult run_jpda_boats_stress(const ExperimentOptions& options, Workers
     records.push_back(read_scenario(options.data, n, BoatSensor::radar));
   }
   const auto runs = run_cases(
-      kNumbers.size() * kMethods.size(), static_cast<std::size_t>(options.runs), workers,
-      options.progress, [&](std::size_t which, std::size_t run) {
+      kNumbers.size() * kMethods.size(), options, workers, [&](std::size_t which, std::size_t run) {
         BoatTrial trial;
         trial.keep = 0.7, trial.clutter = 3e-4, trial.seed = options.seed + run;
         ImmJpdaConfig config = started_from_truth(boat_tracker(kMethods[which % kMethods.size()]));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "glint/engine/config.hpp"
-#include "glint/engine/metrics/evaluation.hpp"
+#include "glint/engine/experiments/evaluation_bytes.hpp"
 #include "glint/engine/scheduler.hpp"
 
 namespace glint {
@@ -29,6 +29,7 @@ struct ClipScore {
   Evaluation online, revised;
   Baseline baseline;  ///< of the matched filter on the same frames, at the online false points
 };
+auto fields(OneOf<ClipScore> auto& s) { return std::tie(s.online, s.revised, s.baseline); }
 
 /// Steps the trackers over the clip, one thread: one score a tracker. `seed` is that of the noise
 /// and of the trackers. Throws as open_source() does.

@@ -173,11 +173,10 @@ ExperimentResult run_real_video(const ExperimentOptions& options, Workers& worke
     clips.back().noise = c.noise;
     sections.push_back(sections_of(c.profile, c.dark));
   }
-  const auto runs = run_cases(kCases.size(), static_cast<std::size_t>(options.runs), workers,
-                              options.progress, [&](std::size_t i, std::size_t run) {
-                                return run_clip(clips[i], sections[i].front().as<FramesConfig>(),
-                                                trackers_of(sections[i]), options.seed + run);
-                              });
+  const auto runs = run_cases(kCases.size(), options, workers, [&](std::size_t i, std::size_t run) {
+    return run_clip(clips[i], sections[i].front().as<FramesConfig>(), trackers_of(sections[i]),
+                    options.seed + run);
+  });
   ExperimentResult result;
   for (std::size_t i = 0; i < kCases.size(); ++i) add_rows(kCases[i], runs[i], result);
   for (const char* profile : {"P", "L"}) add_noise_rows(profile, options.seed, workers, result);
