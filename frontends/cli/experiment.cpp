@@ -12,6 +12,7 @@
 
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/curves.hpp"
+#include "glint/frontends/cli/mpi_team.hpp"
 #include "glint/frontends/cli/run_progress.hpp"
 #include "glint/frontends/experiments/recorded.hpp"
 #include "glint/frontends/experiments/run_file.hpp"
@@ -125,28 +126,50 @@ std::unique_ptr<RunFile> open_store(const Request& request, const ExperimentEntr
       run_file_name(folder, std::string(entry.name), options.seed, where), origin);
 }
 
-void run(const Request& request) {
-  const std::vector<ExperimentEntry> known = experiments();
-  const ExperimentEntry& entry = find_experiment(request.name, known);
-  const std::filesystem::path folder =
-      request.out.empty() ? std::filesystem::path() : output_folder(request.out);
+/// The figures, written where they are wanted; nothing in a process whose runs another has taken.
+std::optional<ExperimentResult> result_of(const Request& request, const ExperimentEntry& entry,
+                                          RunTeam* team) {
+  const bool leads = team == nullptr || team->leads();
+  if (leads && !request.out.empty()) output_folder(request.out);  // refused before any run
   ExperimentOptions options = request.options;
   options.device = device_of(request, entry);
-  options.progress = run_progress();
-  const std::unique_ptr<RunFile> store = open_store(request, entry, options.device);
-  options.store = store.get();
+  if (leads) options.progress = team == nullptr ? run_progress() : progress_lines();
+  const auto store = leads ? open_store(request, entry, options.device) : nullptr;
+  options.store = store.get(), options.team = team;
   Workers workers(request.threads);
-  const ExperimentResult result = run_experiment(entry, options, workers);
+  try {
+    ExperimentResult result = run_experiment(entry, options, workers);
+    return leads ? std::optional(std::move(result)) : std::nullopt;
+  } catch (const RunsTakenElsewhere&) {
+    return std::nullopt;
+  }
+}
+
+void report(const Request& request, const ExperimentResult& result) {
   if (request.json) {
     print_json(result);
   } else {
     print_table(result);
   }
-  if (!folder.empty()) {
-    write_curves((folder / (result.name + ".csv")).string(), result);
-    plot_curves((folder / (result.name + ".png")).string(), result);
+  if (request.out.empty()) return;
+  const std::filesystem::path folder = output_folder(request.out);
+  write_curves((folder / (result.name + ".csv")).string(), result);
+  plot_curves((folder / (result.name + ".png")).string(), result);
+}
+
+void run(const Request& request) {
+  const std::vector<ExperimentEntry> known = experiments();
+  const ExperimentEntry& entry = find_experiment(request.name, known);
+  const std::unique_ptr<ProcessTeam> team = mpi_team();
+  std::optional<ExperimentResult> result;
+  try {
+    result = result_of(request, entry, team.get());
+    if (result) report(request, *result);
+  } catch (const std::exception& e) {
+    if (team) team->fail(e.what());
+    throw;
   }
-  if (!bands_hold(result)) throw std::runtime_error("a figure lies outside its band");
+  if (result && !bands_hold(*result)) throw std::runtime_error("a figure lies outside its band");
 }
 
 std::string names() {

@@ -15,4 +15,13 @@ inline std::function<void(int done, int total)> run_progress() {
   };
 }
 
+/// The same in lines of their own, twenty in all: what a launcher passes on.
+inline std::function<void(int done, int total)> progress_lines() {
+  return [](int done, int total) {
+    if (done * 20L / total > (done - 1) * 20L / total) {
+      fmt::print(stderr, "{} of {} runs\n", done, total);
+    }
+  };
+}
+
 }  // namespace glint::cli
