@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <exception>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "glint/kernels/core/egl_hardware.hpp"
 #include "glint/kernels/core/particles.hpp"
@@ -69,11 +71,15 @@ double calibrate(const Device& device) {
   return least;
 }
 
-std::optional<Device> open_hardware(int threads) {
-  if (!lists_hardware()) return std::nullopt;
+HardwareFound open_hardware(int threads) {
+  try {
+    if (!lists_hardware()) return {std::nullopt, "there is no GPU that EGL knows of"};
+  } catch (const std::runtime_error& e) {
+    return {std::nullopt, std::string("there is no GPU: ") + e.what()};
+  }
   Device device = Device::egl(kAnyEglDevice, threads);
-  if (is_software(device)) return std::nullopt;
-  return device;
+  if (is_software(device)) return {std::nullopt, "there is no GPU that EGL can open"};
+  return {std::move(device), ""};
 }
 
 std::string milliseconds(double seconds) {
@@ -96,9 +102,9 @@ AutoProbe this_machine() { return {open_hardware, calibrate}; }
 AutoChoice choose_device(int threads, const AutoProbe& probe) {
   const Device tbb = Device::tbb(threads);
   try {
-    const std::optional<Device> gpu = probe.hardware(threads);
-    if (!gpu) return {tbb, "there is no GPU that EGL knows of"};
-    return contest(*gpu, tbb, probe);
+    const HardwareFound gpu = probe.hardware(threads);
+    if (!gpu.device) return {tbb, gpu.none};
+    return contest(*gpu.device, tbb, probe);
   } catch (const std::exception& e) {
     return {tbb, std::string("the GPU does not work, so tbb it is: ") + e.what(), true};
   }

@@ -8,11 +8,16 @@
 
 namespace glint {
 
+/// An egl device of hardware, or why there is none.
+struct HardwareFound {
+  std::optional<Device> device;
+  std::string none;
+};
+
 /// What `auto` asks of a machine; tests put another in its place.
 struct AutoProbe {
-  /// An egl device of hardware, nothing where there is none; throws where there is one that does
-  /// not open.
-  std::function<std::optional<Device>(int threads)> hardware;
+  /// Throws where there is a device that does not open.
+  std::function<HardwareFound(int threads)> hardware;
   /// Time [s] that a device takes for the calibration's kernels; throws what they throw.
   std::function<double(const Device&)> seconds;
 };

@@ -174,12 +174,13 @@ FrameJob settle(const FrameOptions& options, const std::vector<std::string>& mor
   std::vector<std::string> trackers = trackers_of(run.as<RunConfig>());
   auto used = used_sections(all, trackers, further_sections(options.inputs, more));
   for (const auto& set : options.sets) apply_set(set, used);
-  AutoChoice choice = make_device(run.as<RunConfig>());
+  const AutoChoice choice = make_device(run.as<RunConfig>());
   // Results depend on the kind of device, so tracks say which one it was.
-  const bool chosen = !choice.why.empty() && choice.device.kind() == DeviceKind::egl;
-  if (chosen) apply_set("run.device=egl", used);
-  return {options.inputs, std::move(trackers), std::move(used),
-          choice.device,  options.quiet,       chosen ? std::move(choice.why) : ""};
+  const bool chosen = !choice.why.empty();
+  if (chosen && choice.device.kind() == DeviceKind::egl) apply_set("run.device=egl", used);
+  const std::string note =
+      chosen ? std::string(name(choice.device.kind())) + ": " + choice.why : std::string();
+  return {options.inputs, std::move(trackers), std::move(used), choice.device, options.quiet, note};
 }
 
 std::unique_ptr<Source> open_frames(const FrameJob& job) {

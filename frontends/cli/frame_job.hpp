@@ -32,7 +32,7 @@ struct FrameJob {
   std::vector<ConfigSection> sections;  ///< those that this run uses
   Device device;
   bool quiet;
-  std::string auto_note = {};  ///< why `auto` took an egl device; else empty
+  std::string auto_note = {};  ///< which device `auto` took, and why; else empty
 
   template <class C>
   const C& config(const std::string& section) const {

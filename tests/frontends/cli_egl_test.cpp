@@ -25,6 +25,7 @@ void expect_no_egl(const Folder& folder, const std::string& environment, const s
   EXPECT_TRUE(has(info.out, "tbb: there is no GPU")) << info.out;
   const Result run = glint(folder, kTrack + "--out " + (folder / "t.csv"), environment);
   EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(has(run.out, "auto       tbb: there is no GPU")) << run.out;
   EXPECT_FALSE(content_of(folder / "t.csv").empty());
 }
 

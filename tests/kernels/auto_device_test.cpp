@@ -10,7 +10,9 @@ namespace {
 
 /// A machine whose GPU, for which the serial device stands in, takes so long, and tbb a second.
 AutoProbe with_gpu(double seconds) {
-  return {[](int) { return Device::serial(); },
+  return {[](int) {
+            return HardwareFound{Device::serial(), ""};
+          },
           [seconds](const Device& d) { return d.kind() == DeviceKind::tbb ? 1 : seconds; }};
 }
 
@@ -35,17 +37,18 @@ TEST(AutoDevice, IsTbbWhereTheGpuDoesNotWinClearly) {
 
 TEST(AutoDevice, IsTbbWithItsThreadsWithoutAGpuAndTimesNothing) {
   AutoProbe probe;
-  probe.hardware = [](int) { return std::nullopt; };
+  probe.hardware = [](int) { return HardwareFound{std::nullopt, "none here"}; };
   probe.seconds = [](const Device&) -> double { throw std::logic_error("was timed"); };
   const AutoChoice choice = choose_device(3, probe);
   EXPECT_EQ(chosen(choice), DeviceKind::tbb);
   EXPECT_EQ(choice.device.workers().threads(), Device::tbb(3).workers().threads());
+  EXPECT_EQ(choice.why, "none here");
   EXPECT_FALSE(choice.failed);
 }
 
 TEST(AutoDevice, IsTbbWithTheReasonWhereTheGpuDoesNotOpen) {
   AutoProbe probe = with_gpu(.1);
-  probe.hardware = [](int) -> std::optional<Device> { throw std::runtime_error("no OpenGL 4.3"); };
+  probe.hardware = [](int) -> HardwareFound { throw std::runtime_error("no OpenGL 4.3"); };
   const AutoChoice choice = choose_device(1, probe);
   EXPECT_EQ(chosen(choice), DeviceKind::tbb);
   EXPECT_TRUE(choice.failed);
