@@ -4,6 +4,8 @@
 #include <fitsio.h>
 #include <fmt/core.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -53,6 +55,16 @@ Axes axes_of(fitsfile* file) {
   return {length[0], length[1], length[2]};
 }
 
+/// No picture is packed better than a thousandfold: a larger one is a damaged header's, and there
+/// may be no memory for it.
+bool can_hold(const std::string& path, const Axes& axes) {
+  constexpr std::uintmax_t kPixelsPerByte = 4096;
+  constexpr long kMaxSide = 1L << 20;
+  if (axes.width > kMaxSide || axes.height > kMaxSide) return false;
+  return static_cast<std::uintmax_t>(axes.width) * static_cast<std::uintmax_t>(axes.height) <=
+         kPixelsPerByte * std::filesystem::file_size(path);
+}
+
 class FitsSource : public Source {
  public:
   explicit FitsSource(const std::string& path) : path_(path), file_(open(path)) {
@@ -63,9 +75,15 @@ class FitsSource : public Source {
       axes_ = axes_of(file_.get());
     }
     if (status != 0) refuse(path, "cannot be read as FITS", status);
-    if (axes_.width == 0) {
+    if (axes_.width < 1 || axes_.height < 1 || axes_.frames < 1) {
       throw std::runtime_error(path +
                                ": holds no image or cube (NAXIS 2 or 3); give a file that does");
+    }
+    if (!can_hold(path, axes_)) {
+      throw std::runtime_error(
+          fmt::format("{}: its header asks for {}x{} pixels, more than the file can hold; copy or "
+                      "make it again",
+                      path, axes_.width, axes_.height));
     }
   }
 

@@ -76,6 +76,7 @@ NpyHeader read_header(const std::string& path, std::ifstream& file) {
   file.read(dictionary.data(), static_cast<std::streamsize>(length));
   if (!file) refuse(path, "truncated inside the .npy header");
   header.type = std::string(value_of(path, dictionary, "descr"));
+  if (header.type.empty()) refuse(path, "no type behind 'descr' in the .npy header");
   header.type = header.type.substr(1, header.type.find_first_of("'\"", 1) - 1);
   if (value_of(path, dictionary, "fortran_order").starts_with("True")) {
     refuse(path, "is in Fortran order; save numpy.ascontiguousarray(cube)");
@@ -101,11 +102,13 @@ class NpySource : public Source {
     const NpyHeader header = read_header(path, file_);
     size_ = element_size(path, header.type);
     set_shape(header.shape);
-    const std::uintmax_t need = header.data + static_cast<std::uintmax_t>(frames_) * frame_bytes();
     const std::uintmax_t have = std::filesystem::file_size(path);
-    if (have < need) {
-      refuse(path,
-             fmt::format("truncated: {} of {} bytes are there; copy or save it again", have, need));
+    const std::uintmax_t room = have > header.data ? have - header.data : 0;
+    // By division: what a header asks for may have no number.
+    if (room / frame_bytes() < static_cast<std::uintmax_t>(frames_)) {
+      refuse(path, fmt::format("truncated: {} bytes are there for {} frames of {}; copy or save it "
+                               "again",
+                               room, frames_, frame_bytes()));
     }
     file_.seekg(static_cast<std::streamoff>(header.data));
   }

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/frontends/files/point_scans.hpp"
+#include "input_file.hpp"
+#include "refusals.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace glint;
+  const std::string path = fuzz::input_file(fuzz::text_of(data, size), ".jsonl");
+  fuzz::or_refused([&] { read_point_scans(path, 0.04); });
+  return 0;
+}
