@@ -117,9 +117,9 @@ std::unique_ptr<RunFile> open_store(const Request& request, const ExperimentEntr
   if (request.keep.empty()) return nullptr;
   const std::string where = device ? request.device : "threads";
   const ExperimentOptions& options = request.options;
-  RunOrigin origin{fmt::format("experiment {}", entry.name), "version " GLINT_VERSION,
-                   "program " + program_digest(), fmt::format("seed {}", options.seed),
-                   "device " + where};
+  RunOrigin origin{fmt::format("experiment {}", entry.name),
+                   std::string("version ") + GLINT_VERSION, "program " + program_digest(),
+                   fmt::format("seed {}", options.seed), "device " + where};
   if (!options.data.empty()) origin.push_back("data " + options.data);
   const std::string folder = output_folder(request.keep).string();
   return std::make_unique<RunFile>(
