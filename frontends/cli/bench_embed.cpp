@@ -193,22 +193,22 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// A program that is given `frames` frames on its standard input, from its start to its end.
-void feed(const std::vector<std::string>& command, const MemoryScene& scene, std::int64_t frames) {
-  Child child(command, Child::Output::dropped);
-  for (std::int64_t i = 0; i < frames; ++i) {
-    const auto pixels = packed(scene, i);
-    child.write(std::as_bytes(std::span(pixels)));
-  }
-  if (child.wait() != 0) throw std::runtime_error(command.front() + " failed");
-}
-
-/// A frame's time [s]: what more frames cost beyond the program's start and its first ones.
+/// A frame's time [s] in a program that reads frames from its standard input, after its first ones.
+/// A pipe holds less than a frame: each is written as fast as the program takes it.
 double piped(const std::vector<std::string>& command, const MemoryScene& scene, std::int64_t first,
              std::int64_t frames) {
-  const double start = seconds_of([&] { feed(command, scene, first); });
-  const double all = seconds_of([&] { feed(command, scene, first + frames); });
-  return (all - start) / static_cast<double>(frames);
+  Child child(command, Child::Output::dropped);
+  std::int64_t at = 0;
+  const auto write_until = [&](std::int64_t end) {
+    for (; at < end; ++at) {
+      const auto pixels = packed(scene, at);
+      child.write(std::as_bytes(std::span(pixels)));
+    }
+  };
+  write_until(first);
+  const double seconds = seconds_of([&] { write_until(first + frames); });
+  if (child.wait() != 0) throw std::runtime_error(command.front() + " failed");
+  return seconds / static_cast<double>(frames);
 }
 
 /// GStreamer's program with the plugin of the build folder, or the installed one.
