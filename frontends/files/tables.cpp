@@ -27,18 +27,6 @@ TrackStatus status_of(const CsvRow& row, std::size_t column) {
 
 }  // namespace
 
-std::string_view name(TrackStatus status) {
-  switch (status) {
-    case TrackStatus::tentative:
-      return "tentative";
-    case TrackStatus::confirmed:
-      return "confirmed";
-    case TrackStatus::halted:
-      break;
-  }
-  return "halted";
-}
-
 std::vector<TrackPoint> read_tracks(const std::string& path) {
   static constexpr std::array<std::string_view, 4> kRequired{"frame", "track_id", "x", "y"};
   static constexpr std::array<std::string_view, 9> kOptional{

@@ -9,10 +9,9 @@
 #include "glint/engine/metrics/evaluation.hpp"
 #include "glint/engine/tracks.hpp"
 #include "glint/engine/truth.hpp"
+#include "glint/frontends/track_status.hpp"
 
 namespace glint {
-
-std::string_view name(TrackStatus status);
 
 /// Tables by column name; see read_csv for what they throw. tracks.csv needs frame, track_id, x, y,
 /// and takes status (confirmed if there is none), time, vx, vy, intensity, existence, var_x, cov_xy

@@ -4,31 +4,20 @@
 #include <gst/video/gstvideometa.h>
 
 #include "glint/frontends/gstreamer/boxes.hpp"
+#include "glint/frontends/track_status.hpp"
 
 namespace glint::gstreamer {
 namespace {
-
-const char* name(TrackStatus status) {
-  switch (status) {
-    case TrackStatus::tentative:
-      return "tentative";
-    case TrackStatus::confirmed:
-      return "confirmed";
-    case TrackStatus::halted:
-      return "halted";
-  }
-  return "";
-}
 
 GstStructure* track_structure(const TrackPoint& p, const std::string& tracker) {
   return gst_structure_new("track", "tracker", G_TYPE_STRING, tracker.c_str(), "frame",
                            G_TYPE_INT64, static_cast<gint64>(p.frame), "time", G_TYPE_DOUBLE,
                            p.time, "track-id", G_TYPE_INT64, static_cast<gint64>(p.track_id),
-                           "status", G_TYPE_STRING, name(p.status), "x", G_TYPE_DOUBLE, p.x, "y",
-                           G_TYPE_DOUBLE, p.y, "vx", G_TYPE_DOUBLE, p.vx, "vy", G_TYPE_DOUBLE, p.vy,
-                           "intensity", G_TYPE_DOUBLE, p.intensity, "existence", G_TYPE_DOUBLE,
-                           p.existence, "var-x", G_TYPE_DOUBLE, p.var_x, "cov-xy", G_TYPE_DOUBLE,
-                           p.cov_xy, "var-y", G_TYPE_DOUBLE, p.var_y, nullptr);
+                           "status", G_TYPE_STRING, name(p.status).data(), "x", G_TYPE_DOUBLE, p.x,
+                           "y", G_TYPE_DOUBLE, p.y, "vx", G_TYPE_DOUBLE, p.vx, "vy", G_TYPE_DOUBLE,
+                           p.vy, "intensity", G_TYPE_DOUBLE, p.intensity, "existence",
+                           G_TYPE_DOUBLE, p.existence, "var-x", G_TYPE_DOUBLE, p.var_x, "cov-xy",
+                           G_TYPE_DOUBLE, p.cov_xy, "var-y", G_TYPE_DOUBLE, p.var_y, nullptr);
 }
 
 /// A list as the value of a structure's field.
