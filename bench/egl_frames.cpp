@@ -93,9 +93,8 @@ Result bench_egl_frames(const Options& options) {
       {"MB sent a frame", static_cast<double>(all.uploaded) / frames / 1e6, {}});
   result.figures.push_back(
       {"MB read back a frame", static_cast<double>(all.read) / frames / 1e6, {}});
-  result.figures.push_back({"particles after the last frame",
-                            static_cast<double>(run.tracker().particles().size()),
-                            {}});
+  result.figures.push_back(
+      {"particles after the last frame", static_cast<double>(run.tracker().particle_count()), {}});
   result.figures.push_back({"targets expected in it", run.tracker().expected_targets(), {}});
   return result;
 }

@@ -28,12 +28,14 @@ class SpatialBackground : public Background {
 
 class NoBackground : public Background {
  public:
+  explicit NoBackground(const Device& device) : device_(device) {}
   bool estimate(const BackgroundInput&, ImageView<float> background) override {
     if (!first_) return false;
     first_ = false;
     for (int y = 0; y < background.height; ++y) {
       std::fill_n(background.row(y), background.width, 0.0F);
     }
+    device_.send(background);
     return true;
   }
   void learn(const BackgroundInput&) override {}
@@ -41,6 +43,7 @@ class NoBackground : public Background {
   std::string description() const override { return "background: none"; }
 
  private:
+  Device device_;
   bool first_ = true;
 };
 
@@ -51,7 +54,7 @@ std::unique_ptr<Background> make_background(const FramesConfig& config, const De
   if (config.background == "registered") {
     return std::make_unique<RegisteredBackground>(config, device);
   }
-  if (config.background == "none") return std::make_unique<NoBackground>();
+  if (config.background == "none") return std::make_unique<NoBackground>(device);
   const int spacing = std::clamp((config.spatial_window - 1) / 4, 1, SpatialMedian::kMaxSpacing);
   return std::make_unique<SpatialBackground>(spacing, device);
 }

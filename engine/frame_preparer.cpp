@@ -10,6 +10,7 @@
 #include "glint/engine/background.hpp"
 #include "glint/engine/frame_pool.hpp"
 #include "glint/kernels/core/cells.hpp"
+#include "glint/kernels/core/kept_memory.hpp"
 
 namespace glint {
 namespace {
@@ -61,7 +62,8 @@ struct FramePreparer::State {
   Device device;
   std::unique_ptr<Background> model;
   FramePool pool;
-  Image<float> background, structure, noise;
+  KeptImage<float> background, structure;
+  Image<float> noise;
   Image<std::uint8_t> ignored;
   std::vector<float> workspace;
   std::size_t pixel_type = 0;
@@ -70,7 +72,7 @@ struct FramePreparer::State {
   std::int64_t frames = 0;
 
   State(const FramesConfig& c, const Device& d)
-      : config(c), device(d), model(make_background(c, d)) {}
+      : config(c), device(d), model(make_background(c, d)), pool(d) {}
 
   struct Grey {
     std::shared_ptr<Image<float>> image;
@@ -102,8 +104,8 @@ FramePreparer::State::Grey FramePreparer::State::take_grey(const RawPixels& raw)
 }
 
 void FramePreparer::State::start(const RawPixels& raw) {
-  background = Image<float>(raw.width, raw.height);
-  structure = Image<float>(raw.width, raw.height);
+  background = KeptImage<float>(raw.width, raw.height, device);
+  structure = KeptImage<float>(raw.width, raw.height, device);
   pixel_type = raw.data.index();
   channels = raw.channels;
   const auto cells = [&](int step) {
@@ -135,12 +137,14 @@ void FramePreparer::State::check_like_first(const RawPixels& raw) const {
 
 void FramePreparer::State::mask_background() {
   const ImageView<float> pixels = background.view();
+  device.fetch(pixels);
   for (int y = 0; y < pixels.height; ++y) {
     const std::uint8_t* mask = ignored.view().row(y);
     for (int x = 0; x < pixels.width; ++x) {
       if (mask[x] != 0) pixels(x, y) = std::numeric_limits<float>::quiet_NaN();
     }
   }
+  device.send(pixels);
 }
 
 void FramePreparer::State::estimate_background(const BackgroundInput& input) {
@@ -178,6 +182,8 @@ void FramePreparer::State::whiten(FrameView grey, double sigma, ImageView<float>
 }
 
 void FramePreparer::State::fill_masked(ImageView<float> grey) const {
+  device.fetch(grey);
+  device.fetch(background.view());
   for (int y = 0; y < grey.height; ++y) {
     const float* known = background.view().row(y);
     for (int x = 0; x < grey.width; ++x) {
@@ -185,6 +191,7 @@ void FramePreparer::State::fill_masked(ImageView<float> grey) const {
       grey(x, y) = std::isnan(known[x]) ? 0.0F : known[x];
     }
   }
+  device.send(grey);
 }
 
 FramePreparer::FramePreparer(const FramesConfig& config, const Device& device)
@@ -216,6 +223,7 @@ Scan FramePreparer::prepare(const RawPixels& raw, std::int64_t frame, double tim
   s.estimate_background(input);
 
   if (s.frames == 0) {
+    s.device.fetch(grey->view());
     s.floor = s.config.sigma_floor > 0 ? s.config.sigma_floor
                                        : automatic_floor(raw, s.config.reciprocal, grey->view());
   }
@@ -231,8 +239,8 @@ Scan FramePreparer::prepare(const RawPixels& raw, std::int64_t frame, double tim
   Scan scan;
   scan.frame = frame;
   scan.time = time;
-  scan.raw = Frame(std::shared_ptr<const Image<float>>(grey));
-  scan.whitened = Frame(std::shared_ptr<const Image<float>>(whitened));
+  scan.raw = s.pool.frame(grey);
+  scan.whitened = s.pool.frame(whitened);
   scan.noise_sigma = s.last_sigma;
   return scan;
 }

@@ -20,7 +20,7 @@ PointFinder::PointFinder(const PointsConfig& config, const Device& device)
 
 void PointFinder::find(const Scan& scan, std::vector<Point>& points) {
   if (config_.mode == "local_maximum") {
-    filter_.points(scan.whitened.view(), config_.threshold, config_.radius, points);
+    filter_.points(scan.whitened.for_kernels(), config_.threshold, config_.radius, points);
     return;
   }
   FindPoints::Args args;

@@ -9,10 +9,6 @@ namespace {
 
 constexpr int kCoarsest = 32;  // [px] least side of a pyramid's last level
 
-void copy(FrameView from, ImageView<float> to) {
-  for (int y = 0; y < from.height; ++y) std::copy(from.row(y), from.row(y) + from.width, to.row(y));
-}
-
 }  // namespace
 
 RegisteredBackground::RegisteredBackground(const FramesConfig& config, const Device& device)
@@ -27,18 +23,18 @@ void RegisteredBackground::build(FrameView image, Pyramid& pyramid) const {
   if (pyramid.levels.empty()) {
     int width = image.width, height = image.height;
     do {
-      pyramid.levels.emplace_back(width, height);
+      pyramid.levels.emplace_back(width, height, device_);
       width /= 2, height /= 2;
     } while (std::min(width, height) >= kCoarsest);
     for (const auto& level : pyramid.levels) pyramid.views.push_back(level.view());
   }
-  copy(image, pyramid.levels[0].view());
+  device_.copy(image, pyramid.levels[0].view());
   for (std::size_t i = 1; i < pyramid.levels.size(); ++i) {
     device_.run<Halve>({pyramid.views[i - 1], pyramid.levels[i].view()});
   }
 }
 
-FrameView RegisteredBackground::registered(const Pyramid& sample, Image<float>& moved) {
+FrameView RegisteredBackground::registered(const Pyramid& sample, KeptImage<float>& moved) {
   Shift shift;
   device_.run<EstimateShift>({present_.views, sample.views, max_shift_, &shift});
   ++compared_;
@@ -67,7 +63,7 @@ void RegisteredBackground::learn(const BackgroundInput& input) {
   if (now_++ % stride_ != 0) return;
   if (samples_.size() < slots_) {
     samples_.emplace_back();
-    moved_.emplace_back(input.grey.width, input.grey.height);
+    moved_.emplace_back(input.grey.width, input.grey.height, device_);
   }
   build(input.grey, samples_[next_]);
   next_ = (next_ + 1) % slots_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "glint/engine/background.hpp"
+#include "glint/kernels/core/kept_memory.hpp"
 
 namespace glint {
 
@@ -22,11 +23,11 @@ class RegisteredBackground : public Background {
  private:
   /// A frame and its halves, finest first.
   struct Pyramid {
-    std::vector<Image<float>> levels;
+    std::vector<KeptImage<float>> levels;
     std::vector<FrameView> views;
   };
   void build(FrameView image, Pyramid& pyramid) const;
-  FrameView registered(const Pyramid& sample, Image<float>& moved);
+  FrameView registered(const Pyramid& sample, KeptImage<float>& moved);
 
   Device device_;
   int spacing_, max_shift_, stride_;
@@ -36,7 +37,7 @@ class RegisteredBackground : public Background {
   std::int64_t now_ = 0, shifted_ = 0, compared_ = 0;
   Pyramid present_;
   std::vector<Pyramid> samples_;
-  std::vector<Image<float>> moved_;
+  std::vector<KeptImage<float>> moved_;
   std::vector<FrameView> stack_;
 };
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "glint/kernels/core/tiles.hpp"
-
 namespace glint {
 
 TemporalBackground::TemporalBackground(const FramesConfig& config, const Device& device)
@@ -67,17 +65,10 @@ ImageView<const T> TemporalBackground::pixels(const RawPixels& raw) {
 template <class T>
 void TemporalBackground::keep(Samples<T>& samples, std::size_t slot, ImageView<const T> image) {
   if (slot == samples.images.size()) {
-    samples.images.emplace_back(image.width, image.height);
+    samples.images.emplace_back(image.width, image.height, device_);
     samples.views.push_back(samples.images.back().view());
   }
-  const ImageView<T> kept = samples.images[slot].view();
-  const Tiles rows{static_cast<std::size_t>(image.height), kRowTile};
-  device_.workers().for_tiles(rows.tiles(), [&](std::size_t tile) {
-    for (std::size_t y = rows.begin(tile); y < rows.end(tile); ++y) {
-      const T* from = image.row(static_cast<int>(y));
-      std::copy(from, from + image.width, kept.row(static_cast<int>(y)));
-    }
-  });
+  device_.copy(image, samples.images[slot].view());
 }
 
 }  // namespace glint

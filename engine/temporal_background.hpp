@@ -7,6 +7,7 @@
 
 #include "glint/engine/background.hpp"
 #include "glint/engine/sample_times.hpp"
+#include "glint/kernels/core/kept_memory.hpp"
 
 namespace glint {
 
@@ -24,7 +25,7 @@ class TemporalBackground : public Background {
  private:
   template <class T>
   struct Samples {
-    std::vector<Image<T>> images;
+    std::vector<KeptImage<T>> images;
     std::vector<ImageView<const T>> views;
   };
   void start(const BackgroundInput& input);

@@ -33,11 +33,11 @@ void AdaptiveNoise::learn(std::span<const Peak> clusters, std::span<const std::u
   std::swap(targets_, next_);
 }
 
-std::span<const float> AdaptiveNoise::scales(const Particles& particles) {
+std::span<const float> AdaptiveNoise::scales(std::span<const std::uint32_t> labels) {
   if (range_ <= 1) return {};
-  scales_.assign(particles.size(), 1.0f);
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (const Target* target = find(particles.label[i])) {
+  scales_.assign(labels.size(), 1.0f);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (const Target* target = find(labels[i])) {
       scales_[i] = static_cast<float>(std::sqrt(target->noise));
     }
   }

@@ -22,8 +22,9 @@ class AdaptiveNoise {
   /// leaves Q as it is.
   void learn(std::span<const Peak> clusters, std::span<const std::uint32_t> members,
              const Particles& particles);
-  /// sqrt(Q / Qmin) of each particle; empty if Q is fixed. Valid until the next call.
-  std::span<const float> scales(const Particles& particles);
+  bool fixed() const { return range_ <= 1; }
+  /// sqrt(Q / Qmin) of each particle by its label; empty if Q is fixed. Valid until the next call.
+  std::span<const float> scales(std::span<const std::uint32_t> labels);
 
  private:
   struct Target {

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kBirthTile = 512;
 
 /// Sum of row sums, in row order: the same for any number of threads. `rows` is scratch.
-double ordered_sum(const AlignedVector<float>& values, int width, int height, const Device& device,
+double ordered_sum(std::span<const float> values, int width, int height, const Device& device,
                    std::vector<double>& rows) {
   rows.resize(static_cast<std::size_t>(height));
   device.workers().for_tiles(rows.size(), [&](std::size_t y) {
@@ -60,7 +60,7 @@ struct PickedCell {
 };
 
 /// Draws a cell within `reach` of (x, y) in proportion to its score; `u` is uniform in (0, 1).
-PickedCell pick_in_reach(const AlignedVector<float>& score, int width, int height, int x, int y,
+PickedCell pick_in_reach(std::span<const float> score, int width, int height, int x, int y,
                          int reach, double u) {
   const int x0 = std::max(0, x - reach), x1 = std::min(width - 1, x + reach);
   const int y0 = std::max(0, y - reach), y1 = std::min(height - 1, y + reach);
@@ -83,7 +83,7 @@ PickedCell pick_in_reach(const AlignedVector<float>& score, int width, int heigh
 
 Births::Births(const BirthConfig& config, const MotionBank& bank, const Device& device,
                std::uint64_t seed)
-    : config_(config), bank_(bank), device_(device), seed_(seed) {
+    : config_(config), bank_(bank), device_(device), seed_(seed), now_(device), before_(device) {
   cells_.reserve(static_cast<std::size_t>(config.count));
 }
 
@@ -91,7 +91,7 @@ void Births::set_appearance(const TargetAppearance& appearance) {
   spread_ = appearance.spread();
   intensity_low_ = appearance.intensity_low(), intensity_high_ = appearance.intensity_high();
   jitter_ = appearance.jitter();
-  now_ = {}, before_ = {};
+  for (BirthFrame* frame : {&now_, &before_}) frame->whitened = {}, frame->total = 0;
 }
 
 std::uint32_t Births::draw_mode(std::uint32_t word) const {
@@ -108,13 +108,14 @@ float Births::draw_intensity(std::uint32_t word) const {
 }
 
 void Births::look_at(const Frame& z, const PixelMask& mask) {
-  const FrameView view = z.view();
+  const FrameView view = z.for_kernels();
   std::swap(now_, before_);
   now_.whitened = z;
   now_.score.resize(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
   if (map_.width() != view.width || map_.height() != view.height) {
-    map_ = Image<float>(view.width, view.height);
+    map_ = KeptImage<float>(view.width, view.height, device_);
   }
+  const std::span<float> score = now_.score.values();
   const auto intensity = static_cast<float>(std::sqrt(double{intensity_low_} * intensity_high_));
   device_.run<PixelLikelihood>(
       {.frame = view, .spread = spread_, .intensity = intensity, .map = map_.view()});
@@ -125,14 +126,16 @@ void Births::look_at(const Frame& z, const PixelMask& mask) {
                             .energy = static_cast<float>(energy * energy),
                             .intensity_low = intensity_low_,
                             .intensity_high = intensity_high_,
-                            .score = {now_.score.data(), view.width, view.height, view.width}});
+                            .score = {score.data(), view.width, view.height, view.width}});
+  now_.score.fetch();
   for (const Box& box : mask.boxes()) {
     for (int y = box.y0; y < box.y1; ++y) {
-      float* row = now_.score.data() + static_cast<std::ptrdiff_t>(y) * view.width;
+      float* row = score.data() + static_cast<std::ptrdiff_t>(y) * view.width;
       std::fill(row + box.x0, row + box.x1, 0.0f);
     }
   }
-  now_.total = ordered_sum(now_.score, view.width, view.height, device_, row_sums_);
+  if (!mask.empty()) now_.score.send();
+  now_.total = ordered_sum(score, view.width, view.height, device_, row_sums_);
 }
 
 std::size_t Births::draw(const BirthScan& scan, Particles& particles, std::size_t at) {
@@ -143,6 +146,16 @@ std::size_t Births::draw(const BirthScan& scan, Particles& particles, std::size_
   const bool first =
       before_.whitened.width() != scan.z.width() || before_.whitened.height() != scan.z.height();
   return first || before_.total <= 0 ? 0 : draw_two_frame(scan, particles, at);
+}
+
+/// The new-born begin at `at`.
+void Births::send(Particles& particles, std::size_t at) const {
+  const auto count = static_cast<std::size_t>(config_.count);
+  for (auto* zero : {&particles.ax, &particles.ay}) {
+    std::fill_n(zero->begin() + static_cast<std::ptrdiff_t>(at), count, 0.0F);
+  }
+  std::fill_n(particles.label.begin() + static_cast<std::ptrdiff_t>(at), count, 0U);
+  particles.for_each_array([&](auto& a) { device_.send(std::span(a).subspan(at, count)); });
 }
 
 std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_t at) {
@@ -171,6 +184,7 @@ std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_
     p.mode[to] = draw_mode(b.w[3]);
     p.weight[to] = static_cast<float>(config_.mass / config_.count);  // P-PHD (30)
   }
+  send(p, at);
   return count;
 }
 
@@ -181,7 +195,7 @@ std::size_t Births::draw_matched(const BirthScan& scan, Particles& p, std::size_
   const auto speed = static_cast<float>(config_.speed_max);
   cells_.resize(count);
   device_.run<Resample>(
-      {.weights = now_.score, .ancestors = cells_, .key = key, .workspace = &draws_});
+      {.weights = now_.score.values(), .ancestors = cells_, .key = key, .workspace = &draws_});
   const double mean = now_.total / (static_cast<double>(width) * height);
   for (std::size_t i = 0; i < count; ++i) {
     const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
@@ -194,8 +208,10 @@ std::size_t Births::draw_matched(const BirthScan& scan, Particles& p, std::size_
     p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
     p.intensity[to] = draw_intensity(b.w[2]);
     p.mode[to] = draw_mode(b.w[3]);
-    p.weight[to] = static_cast<float>(config_.mass / config_.count * mean / now_.score[cells_[i]]);
+    p.weight[to] =
+        static_cast<float>(config_.mass / config_.count * mean / now_.score.values()[cells_[i]]);
   }
+  send(p, at);
   return count;
 }
 
@@ -208,7 +224,7 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
   for (auto* v : {&x_before_, &y_before_, &log_ratio_}) v->resize(count);
   cells_.resize(count);
   device_.run<Resample>(
-      {.weights = before_.score, .ancestors = cells_, .key = key, .workspace = &draws_});
+      {.weights = before_.score.values(), .ancestors = cells_, .key = key, .workspace = &draws_});
 
   const double mean = before_.total / (static_cast<double>(width) * height);
   const double area = 4 * config_.speed_max * step * config_.speed_max * step;
@@ -218,7 +234,8 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
       const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
       const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 2);
       const auto [cx, cy] = pixel_at(cells_[i], width);
-      const auto next = pick_in_reach(now_.score, width, height, cx, cy, reach, uniform(a.w[2]));
+      const auto next =
+          pick_in_reach(now_.score.values(), width, height, cx, cy, reach, uniform(a.w[2]));
       const std::size_t to = at + i;
       x_before_[i] = static_cast<float>(cx) + uniform(a.w[0]) - 0.5f;
       y_before_[i] = static_cast<float>(cy) + uniform(a.w[1]) - 0.5f;
@@ -234,13 +251,15 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
       const bool possible =  // all cells in reach may be masked
           next.score > 0 && std::abs(p.vx[to]) <= config_.speed_max &&
           std::abs(p.vy[to]) <= config_.speed_max;
-      const double weight = config_.mass / config_.count * mean / before_.score[cells_[i]] *
-                            next.total / (area * next.score) / explained;
+      const double weight = config_.mass / config_.count * mean /
+                            before_.score.values()[cells_[i]] * next.total / (area * next.score) /
+                            explained;
       p.weight[to] = possible ? static_cast<float>(weight) : 0.0f;
     }
   });
+  send(p, at);
   device_.run<ParticleLikelihood>(
-      {.frame = before_.whitened.view(),
+      {.frame = before_.whitened.for_kernels(),
        .spread = spread_,
        .x = x_before_,
        .y = y_before_,
@@ -262,6 +281,7 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
                             .updated = updated_,
                             .workspace = &shares_});
   std::copy(updated_.begin(), updated_.end(), predicted.begin());
+  device_.send(predicted);
   return count;
 }
 

@@ -9,6 +9,7 @@
 #include "glint/kernels/cell_weights/cell_weights.hpp"
 #include "glint/kernels/core/device.hpp"
 #include "glint/kernels/core/frame.hpp"
+#include "glint/kernels/core/kept_memory.hpp"
 #include "glint/kernels/core/particles.hpp"
 #include "glint/kernels/core/point_spread.hpp"
 #include "glint/kernels/resample/resample.hpp"
@@ -43,9 +44,10 @@ struct BirthScan {
 
 /// One frame as births see it, kept until the next.
 struct BirthFrame {
+  explicit BirthFrame(const Device& device) : score(device) {}
   Frame whitened;
-  AlignedVector<float> score;  ///< row by row, without padding
-  double total = 0;            ///< sum of the scores
+  KeptArray<float> score;  ///< row by row, without padding; on the host, too
+  double total = 0;        ///< sum of the scores
 };
 
 /// Draws new-born particles with their weights; their position is the one at the present frame.
@@ -56,7 +58,8 @@ class Births {
   /// What the new-born look like; forgets the frame before.
   void set_appearance(const TargetAppearance& appearance);
 
-  /// Writes `config.count` particles to `particles` from index `at` on (already resized). Returns
+  /// Writes `config.count` particles to `particles` from index `at` on (already resized), on the
+  /// host and on the device if they are kept. Returns
   /// how many were written: fewer only if there is nothing to draw from (no frame before, no cell
   /// above the threshold).
   std::size_t draw(const BirthScan& scan, Particles& particles, std::size_t at);
@@ -66,6 +69,7 @@ class Births {
   std::size_t draw_uniform(const BirthScan& scan, Particles& p, std::size_t at);
   std::size_t draw_matched(const BirthScan& scan, Particles& p, std::size_t at);
   std::size_t draw_two_frame(const BirthScan& scan, Particles& p, std::size_t at);
+  void send(Particles& particles, std::size_t at) const;
   std::uint32_t draw_mode(std::uint32_t word) const;
   float draw_intensity(std::uint32_t word) const;
 
@@ -76,7 +80,7 @@ class Births {
   Device device_;
   std::uint64_t seed_;
   BirthFrame now_, before_;
-  Image<float> map_;
+  KeptImage<float> map_;
   std::vector<std::uint32_t> cells_;
   AlignedVector<float> x_before_, y_before_, log_ratio_, updated_;
   std::vector<double> row_sums_;

@@ -30,7 +30,7 @@ void move_particles(const ParticleModel& model, std::int64_t frame, double step,
 void weigh_particles(const ParticleModel& model, const Frame& z, std::int64_t frame,
                      const Particles& p, std::span<float> log_ratio) {
   model.device.run<ParticleLikelihood>(
-      {.frame = z.view(),
+      {.frame = z.for_kernels(),
        .spread = model.appearance.spread(),
        .x = p.x,
        .y = p.y,

@@ -12,8 +12,8 @@ bool placed(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 }  // namespace
 
 void PointArea::see(const Scan& scan) {
-  const FrameView frame = scan.raw ? scan.raw.view() : scan.whitened.view();
-  frame_ = static_cast<double>(frame.width) * frame.height;
+  const Frame& frame = scan.raw ? scan.raw : scan.whitened;
+  frame_ = static_cast<double>(frame.width()) * frame.height();
   if (frame_ > 0) return;
   for (const Point& p : scan.points) {
     if (placed(p)) box_.extend(Eigen::Vector2d(p.x, p.y));

@@ -8,8 +8,6 @@
 
 #include "glint/engine/filters/moved_particles.hpp"
 #include "glint/engine/filters/particle_steps.hpp"
-#include "glint/kernels/cell_weights/bound.hpp"
-#include "glint/kernels/core/math.hpp"
 
 namespace glint {
 namespace {
@@ -45,7 +43,13 @@ SearchCloud::SearchCloud(const SearchConfig& config, const Device& device, std::
       seed_(seed),
       weight_(weight),
       appearance_(config),
-      births_(births_of(config), bank_, device, seed) {}
+      births_(births_of(config), bank_, device, seed),
+      particles_(device),
+      moved_(device),
+      log_ratio_(device),
+      updated_(device),
+      likelihood_(device),
+      ancestors_(device) {}
 
 void SearchCloud::set_appearance(const TargetAppearance& appearance) {
   appearance_ = appearance;
@@ -58,38 +62,60 @@ void SearchCloud::clear() {
   expected_ = 0;
 }
 
+Particles& SearchCloud::particles() {
+  if (!fetched_) particles_.fetch();
+  fetched_ = true;
+  return particles_.arrays();
+}
+
+std::span<const std::uint32_t> SearchCloud::labels() {
+  const auto& label = particles_.arrays().label;
+  if (!fetched_) device_.fetch(std::span(label));
+  return label;
+}
+
+void SearchCloud::send_labels() {
+  device_.send(std::span(particles_.arrays().label));
+  fetched_ = false;
+}
+
 void SearchCloud::predict(const Frame& z, std::int64_t frame, double step, const PixelMask& mask,
                           std::span<const float> noise_scale) {
-  auto& p = particles_;
-  move_particles({bank_, appearance_, device_, seed_}, frame, step, p, noise_scale);
-  // P-PHD (11): survivors keep w_{k-1}, times the probability of survival.
-  const auto survival = static_cast<float>(config_.survival);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    p.weight[i] = !mask.empty() && mask.covers(p.x[i], p.y[i]) ? 0 : p.weight[i] * survival;
-  }
+  move_particles({bank_, appearance_, device_, seed_}, frame, step, particles_.arrays(),
+                 noise_scale);
+  set_survivors(mask);
   give_birth(z, frame, step, mask);
+  fetched_ = false;
+}
+
+// P-PHD (11): survivors keep w_{k-1}, times the probability of survival.
+void SearchCloud::set_survivors(const PixelMask& mask) {
+  auto& p = particles_.arrays();
+  const float weight = weight_of_each_ * static_cast<float>(config_.survival);
+  if (mask.empty()) return device_.fill(p.weight, weight);
+  device_.fetch(std::span(p.x)), device_.fetch(std::span(p.y));
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.weight[i] = mask.covers(p.x[i], p.y[i]) ? 0 : weight;
+  }
+  device_.send(std::span(p.weight));
 }
 
 void SearchCloud::give_birth(const Frame& z, std::int64_t frame, double step,
                              const PixelMask& mask) {
   const std::size_t survivors = particles_.size();
-  const std::size_t all = survivors + static_cast<std::size_t>(config_.birth_particles);
-  const auto from = static_cast<std::ptrdiff_t>(survivors);
-  particles_.resize(all);
-  for (auto* zero : {&particles_.ax, &particles_.ay}) {
-    std::fill(zero->begin() + from, zero->end(), 0.0f);
-  }
-  std::fill(particles_.label.begin() + from, particles_.label.end(), 0u);
+  particles_.resize(survivors + static_cast<std::size_t>(config_.birth_particles));
   const std::size_t born =
-      births_.draw({z, frame, step, cells_, config_.clutter, mask}, particles_, survivors);
+      births_.draw({z, frame, step, cells_, config_.clutter, mask}, particles_.arrays(), survivors);
   particles_.resize(survivors + born);
 }
 
 void SearchCloud::update(const Frame& z, std::int64_t frame) {
-  auto& p = particles_;
+  auto& p = particles_.arrays();
+  const bool odds = weight_ == CloudWeight::odds;
   log_ratio_.resize(p.size());
   updated_.resize(p.size());
-  weigh_particles({bank_, appearance_, device_, seed_}, z, frame, p, log_ratio_);
+  if (odds || config_.resample_on == "likelihood") likelihood_.resize(p.size());
+  weigh_particles({bank_, appearance_, device_, seed_}, z, frame, p, log_ratio_.values());
   device_.run<CellWeights>({.width = z.width(),
                             .height = z.height(),
                             .half_width = appearance_.spread().half_width,
@@ -98,48 +124,50 @@ void SearchCloud::update(const Frame& z, std::int64_t frame) {
                             .x = p.x,
                             .y = p.y,
                             .predicted = p.weight,
-                            .log_ratio = log_ratio_,
-                            .updated = updated_,
+                            .log_ratio = log_ratio_.values(),
+                            .updated = updated_.values(),
+                            .weighted = likelihood_.values(),
                             .workspace = &cells_});
-  std::swap(p.weight, updated_);
+  particles_.swap_weight(updated_);
   expected_ = total_mass(cells_.runs);
-  const bool odds = weight_ == CloudWeight::odds;
-  if (odds || config_.resample_on == "likelihood") weigh_by_likelihood();
   if (odds) turn_to_odds();
+  fetched_ = false;
 }
 
 void SearchCloud::turn_to_odds() {
   constexpr double kMost = 1e8;  // nothing is surer than that
   const double sum = std::accumulate(cells_.cell_sum.begin(), cells_.cell_sum.end(), 0.0);
   const auto scale = static_cast<float>(sum > kMost ? kMost / sum : 1);
-  for (float& w : likelihood_) w *= scale;
+  likelihood_.fetch();
+  auto& weight = particles_.arrays().weight;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    weight[i] = likelihood_.values()[i] *= scale;
+  }
+  likelihood_.send();
+  device_.send(std::span(weight));
   for (std::size_t r = 0; r < cells_.runs.size(); ++r) {
     cells_.runs.mass[r] = scale * cells_.cell_sum[r];
   }
-  particles_.weight = likelihood_;
   expected_ = std::min(sum, kMost);
 }
 
-void SearchCloud::weigh_by_likelihood() {
-  const auto& predicted = updated_;  // the update left them there
-  likelihood_.resize(predicted.size());
-  for (std::size_t i = 0; i < predicted.size(); ++i) {
-    const bool possible = log_ratio_[i] >= -kMaxLogRatio;  // false for NaN
-    likelihood_[i] = possible ? predicted[i] * math::exp(bounded_log_ratio(log_ratio_[i])) : 0.0f;
-  }
-}
-
 void SearchCloud::remove(std::span<const std::uint32_t> members) {
+  auto& weight = particles_.arrays().weight;
+  device_.fetch(std::span(weight));
+  likelihood_.fetch();
   for (const std::uint32_t i : members) {
-    expected_ -= particles_.weight[i];
-    particles_.weight[i] = 0;
-    if (!likelihood_.empty()) likelihood_[i] = 0;
+    expected_ -= weight[i];
+    weight[i] = 0;
+    if (!likelihood_.empty()) likelihood_.values()[i] = 0;
   }
+  device_.send(std::span(weight));
+  likelihood_.send();
   expected_ = std::max(0.0, expected_);
+  fetched_ = false;
 }
 
 void SearchCloud::resample(std::int64_t frame) {
-  auto& p = particles_;
+  auto& p = particles_.arrays();
   const double targets = weight_ == CloudWeight::odds ? 1 : std::max(1.0, std::ceil(expected_));
   const double wanted =
       std::min({targets * config_.particles_per_target, static_cast<double>(config_.particles_max),
@@ -148,18 +176,19 @@ void SearchCloud::resample(std::int64_t frame) {
   moved_.resize(kept);
   ancestors_.resize(kept);
   if (kept > 0) {
-    const auto moves = moved_particles(p, 0, moved_, 0);
+    const auto moves = moved_particles(p, 0, moved_.arrays(), 0);
     device_.run<Resample>(
-        {.weights = likelihood_.empty() ? p.weight : likelihood_,
-         .ancestors = ancestors_,
+        {.weights = likelihood_.empty() ? std::span<const float>(p.weight) : likelihood_.values(),
+         .ancestors = ancestors_.values(),
          .method = config_.resampling == "residual" ? Resampling::residual : Resampling::systematic,
          .key = random_key(seed_, index_of(frame), Purpose::resample),
          .moved = moves,
          .workspace = &draws_});
-    std::fill(moved_.weight.begin(), moved_.weight.end(),
-              static_cast<float>(expected_ / static_cast<double>(kept)));
+    weight_of_each_ = static_cast<float>(expected_ / static_cast<double>(kept));
+    device_.fill(moved_.arrays().weight, weight_of_each_);
   }
   std::swap(particles_, moved_);
+  fetched_ = false;
 }
 
 }  // namespace glint

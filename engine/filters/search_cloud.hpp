@@ -5,12 +5,14 @@
 #include <string>
 
 #include "glint/engine/filters/births.hpp"
+#include "glint/engine/filters/kept_particles.hpp"
 #include "glint/engine/filters/pixel_mask.hpp"
 #include "glint/engine/filters/target_appearance.hpp"
 #include "glint/engine/models/motion_bank.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/kernels/cell_weights/cell_weights.hpp"
 #include "glint/kernels/core/device.hpp"
+#include "glint/kernels/core/kept_memory.hpp"
 #include "glint/kernels/core/particles.hpp"
 #include "glint/kernels/resample/resample.hpp"
 
@@ -75,14 +77,17 @@ class SearchCloud {
 
   /// Sum of the weights after the update: expected number of targets, P-PHD (19), or odds.
   double expected() const { return expected_; }
-  Particles& particles() { return particles_; }
-  const Particles& particles() const { return particles_; }
+  /// Fetched from the device. Who changes labels is to send_labels(); nothing else may be changed.
+  Particles& particles();
+  std::span<const std::uint32_t> labels();
+  void send_labels();
+  std::size_t size() const { return particles_.size(); }
   /// The particles by pixel, of the last update.
   const CellRuns& runs() const { return cells_.runs; }
 
  private:
   void give_birth(const Frame& z, std::int64_t frame, double step, const PixelMask& mask);
-  void weigh_by_likelihood();
+  void set_survivors(const PixelMask& mask);
   void turn_to_odds();
 
   SearchConfig config_;
@@ -92,12 +97,14 @@ class SearchCloud {
   CloudWeight weight_;
   TargetAppearance appearance_;
   Births births_;
-  Particles particles_, moved_;
-  AlignedVector<float> log_ratio_, updated_;
-  AlignedVector<float> likelihood_;  ///< w_{k|k-1} l, if the cloud is redrawn by it; else empty
+  KeptParticles particles_, moved_;
+  bool fetched_ = false;      ///< particles_, since they were last moved or weighed
+  float weight_of_each_ = 0;  ///< after resampling
+  KeptArray<float> log_ratio_, updated_;
+  KeptArray<float> likelihood_;  ///< w_{k|k-1} l, if the cloud is redrawn by it; else empty
   CellWorkspace cells_;
   ResampleWorkspace draws_;
-  std::vector<std::uint32_t> ancestors_;
+  KeptArray<std::uint32_t> ancestors_;
   double expected_ = 0;
 };
 

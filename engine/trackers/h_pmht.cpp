@@ -50,7 +50,7 @@ HPmht::HPmht(const HPmhtConfig& config, const Device& device, std::uint64_t /*se
 
 void HPmht::step(const Scan& scan, TrackLog& log) {
   const Frame& frame = config_.intensity == "rpim" ? scan.raw : scan.whitened;
-  if (frame.view().empty()) return;
+  if (frame.width() == 0) return;
   advance(scan, frame);
   batch_.run(scans_, targets_);
   end_duplicates();
@@ -69,8 +69,8 @@ void HPmht::advance(const Scan& scan, const Frame& frame) {
     scans_.erase(scans_.begin());
   }
   BatchScan now;
-  now.frame = frame.view();
-  now.rule = rule_of(now.frame);
+  now.frame = frame.for_kernels();
+  now.rule = rule_of(frame);
   device_.run<SumCells>({now.frame, now.rule, &now.total});
   double rate = 1;
   if (last_frame_ >= 0) {
@@ -88,12 +88,12 @@ void HPmht::advance(const Scan& scan, const Frame& frame) {
   last_frame_ = scan.frame, last_time_ = scan.time;
 }
 
-CellRule HPmht::rule_of(FrameView frame) {
+CellRule HPmht::rule_of(const Frame& frame) {
   if (config_.intensity == "whitened") {
     return {.threshold = static_cast<float>(config_.noise_threshold), .subtract = true};
   }
   const double level =
-      config_.threshold_scale * intensity_levels(frame, quantile_workspace_).displayed();
+      config_.threshold_scale * intensity_levels(frame.view(), quantile_workspace_).displayed();
   return {.threshold = static_cast<float>(level), .subtract = config_.threshold == "subtract"};
 }
 
@@ -124,7 +124,7 @@ void HPmht::add_starts(TrackLog& log) {
 
 void HPmht::add_candidates(const Scan& scan) {
   const double step = scans_.back().step;
-  const auto pairs = pairs_.find(scan.whitened.view(), config_.speed_max * step);
+  const auto pairs = pairs_.find(scan.whitened.for_kernels(), config_.speed_max * step);
   if (window_.size() < 2) return;  // the pair's first frame must be in the batch
   const double proportion =
       std::min(0.5, candidate_intensity(config_) / std::max(scans_.back().total.norm, 1e-9));

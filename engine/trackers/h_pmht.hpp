@@ -78,7 +78,7 @@ class HPmht : public Tracker {
   };
 
   void advance(const Scan& scan, const Frame& frame);
-  CellRule rule_of(FrameView frame);
+  CellRule rule_of(const Frame& frame);
   /// A target at `at` one step before scan `first`.
   BatchTarget target_at(const Start& at, std::size_t first, double proportion) const;
   void add_starts(TrackLog& log);

@@ -36,7 +36,7 @@ MmPf::MmPf(const MmPfConfig& config, const Device& device, std::uint64_t seed)
       targets_(config.known_targets(), bank_, device, seed) {}
 
 void MmPf::step(const Scan& scan, TrackLog& log) {
-  if (scan.whitened.view().empty()) return;
+  if (scan.whitened.width() == 0) return;
   if (!clock_.started()) log.set_mode_names(bank_.names);
   if (appearance_.look_at(scan)) {
     search_.set_appearance(appearance_);

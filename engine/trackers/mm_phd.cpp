@@ -12,7 +12,7 @@ MmPhd::MmPhd(const MmPhdConfig& config, const Device& device, std::uint64_t seed
       backward_(config.known_targets(), bank_, config.backward_frames, device, seed) {}
 
 void MmPhd::step(const Scan& scan, TrackLog& log) {
-  if (scan.whitened.view().empty()) return;
+  if (scan.whitened.width() == 0) return;
   if (!clock_.started()) log.set_mode_names(bank_.names);
   if (appearance_.look_at(scan)) {
     search_.set_appearance(appearance_);

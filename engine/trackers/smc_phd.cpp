@@ -17,11 +17,12 @@ SmcPhd::SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t s
       noise_(config.noise_adaptation) {}
 
 void SmcPhd::step(const Scan& scan, TrackLog& log) {
-  if (scan.whitened.view().empty()) return;
+  if (scan.whitened.width() == 0) return;
   if (!clock_.started()) log.set_mode_names(bank_.names);
   if (appearance_.look_at(scan)) cloud_.set_appearance(appearance_);
   const StepTime at = clock_.tick(scan);
-  cloud_.predict(scan.whitened, scan.frame, at.step, nothing_, noise_.scales(cloud_.particles()));
+  const auto scales = noise_.fixed() ? std::span<const float>() : noise_.scales(cloud_.labels());
+  cloud_.predict(scan.whitened, scan.frame, at.step, nothing_, scales);
   cloud_.update(scan.whitened, scan.frame);
   report(scan, at, log);
   cloud_.resample(scan.frame);
@@ -46,6 +47,7 @@ void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
   identities_.assign(found, members, particles, scan.frame, scan.time, at.step, at.velocity_scale,
                      bank_.modes.size(), log);
   noise_.learn(found, members, particles);
+  cloud_.send_labels();
 }
 
 }  // namespace glint

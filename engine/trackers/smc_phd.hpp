@@ -49,7 +49,7 @@ class SmcPhd : public Tracker {
 
   /// Expected number of targets after the last step. P-PHD (19)
   double expected_targets() const { return cloud_.expected(); }
-  const Particles& particles() const { return cloud_.particles(); }
+  std::size_t particle_count() const { return cloud_.size(); }
 
  private:
   void report(const Scan& scan, const StepTime& at, TrackLog& log);

@@ -21,7 +21,7 @@ Viterbi::Viterbi(const ViterbiConfig& config, const Device& device, std::uint64_
 }
 
 void Viterbi::step(const Scan& scan, TrackLog& log) {
-  if (scan.whitened.view().empty()) return;
+  if (scan.whitened.width() == 0) return;
   appearance_.look_at(scan);
   const StepTime at = clock_.tick(scan);
   score(scan.whitened, at.step);
@@ -40,7 +40,7 @@ void Viterbi::step(const Scan& scan, TrackLog& log) {
 
 void Viterbi::score(const Frame& z, double step) {
   PixelLikelihood::Args args;
-  args.frame = z.view();
+  args.frame = z.for_kernels();
   args.spread = appearance_.spread();
   args.intensity = (appearance_.intensity_low() + appearance_.intensity_high()) / 2;
   args.threshold = std::numeric_limits<float>::infinity();

@@ -60,8 +60,9 @@ struct CellWeights {
     std::span<const float> x, y;       ///< [px]
     std::span<const float> predicted;  ///< w_{k|k-1}
     std::span<const float>
-        log_ratio;             ///< l = exp(bounded_log_ratio(.)); -inf and NaN mean weight 0
-    std::span<float> updated;  ///< written: w_k
+        log_ratio;                   ///< l = exp(bounded_log_ratio(.)); -inf and NaN mean weight 0
+    std::span<float> updated;        ///< written: w_k
+    std::span<float> weighted = {};  ///< written if given: w_{k|k-1} l
     CellWorkspace* workspace = nullptr;  ///< runs, M, B are left here for the caller
   };
   static void serial(const Args& args);

@@ -39,7 +39,7 @@ void add_row(const CellRuns& runs, std::int64_t width, std::int64_t half_width, 
 void check(const CellWeights::Args& args) {
   const std::size_t n = args.x.size();
   require(args.y.size() == n && args.predicted.size() == n && args.log_ratio.size() == n &&
-              args.updated.size() == n,
+              args.updated.size() == n && (args.weighted.empty() || args.weighted.size() == n),
           "particle arrays must have one length");
   require(args.width >= 0 && args.height >= 0 && args.width <= kMaxSide && args.height <= kMaxSide,
           "the frame must have at most 65535 pixels a side");

@@ -68,7 +68,7 @@ Runs find_runs(gl::Queue& queue, const CellPass& pass, const Sorted& sorted, Cel
   gl::Buffer cell = queue.buffer<uint>(count), first = queue.buffer<uint>(count + 1);
   queue.run(shaders::cell_weights_sort, "write_runs", chunks, pass,
             {&sorted.keys, &starts, &none, &cell, &first});
-  queue.write(first, std::span<const uint>(&inside, 1), count);
+  queue.write(first, std::span(&inside, 1), count);
   read_into(queue, sorted.order, inside, runs.order);
   read_into(queue, cell, count, runs.cell);
   read_into(queue, first, count + 1, runs.first);
@@ -84,8 +84,9 @@ void update(gl::Queue& queue, const CellWeights::Args& args, CellWorkspace& spac
   const gl::Buffer x = queue.upload(args.x), y = queue.upload(args.y),
                    predicted = queue.upload(args.predicted), ratio = queue.upload(args.log_ratio);
   gl::Buffer keys = queue.buffer<uint>(pass.count);
-  const gl::Buffer weighted = queue.buffer<float>(pass.count);
-  const gl::Buffer updated = queue.buffer<float>(pass.count);
+  const gl::Buffer weighted =
+      args.weighted.empty() ? queue.buffer<float>(pass.count) : queue.output(args.weighted);
+  const gl::Buffer updated = queue.output(args.updated);
   queue.run(shaders::cell_weights_weigh, "weigh", pass.count, pass,
             {&x, &y, &predicted, &ratio, &keys, &weighted, &updated});
 
@@ -101,6 +102,7 @@ void update(gl::Queue& queue, const CellWeights::Args& args, CellWorkspace& spac
   queue.run(shaders::cell_weights_sums, "update", runs, pass,
             {&sorted.order, &first, &weighted, &cell_sum, &box_sum, &updated, &mass});
   queue.read(updated, args.updated);
+  queue.read(weighted, args.weighted);
   read_into(queue, cell_sum, runs, space.cell_sum);
   read_into(queue, box_sum, runs, space.box_sum);
   read_into(queue, mass, runs, space.runs.mass);

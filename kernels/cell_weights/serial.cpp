@@ -102,6 +102,9 @@ void CellWeights::serial(const Args& args) {
   find_runs(space);
   sum_cells(args, space);
   update(args, space);
+  for (std::size_t i = 0; i < args.weighted.size(); ++i) {
+    args.weighted[i] = static_cast<float>(weighted(args, i));
+  }
 }
 
 }  // namespace glint

@@ -41,27 +41,33 @@ double sum_of(const CellRuns& runs, std::size_t r, const float* weighted) {
   return (s0 + s1) + (s2 + s3);
 }
 
-void weigh(const CellWeights::Args& args, const Passes& passes, CellWorkspace& space) {
+/// Leaves w l where the caller wants it.
+std::span<const float> weigh(const CellWeights::Args& args, const Passes& passes,
+                             CellWorkspace& space) {
   const std::size_t n = args.x.size();
   space.keys.resize(n);
-  space.weighted.resize(n);
+  if (args.weighted.empty()) space.weighted.resize(n);
+  const std::span<float> weighted =
+      args.weighted.empty() ? std::span(space.weighted) : args.weighted;
   const cell_weights::Particles particles{args.x.data(),         args.y.data(),
                                           args.predicted.data(), args.log_ratio.data(),
-                                          space.keys.data(),     space.weighted.data()};
+                                          space.keys.data(),     weighted.data()};
   const CellWeightsLanes& lanes = cell_weights_lanes(passes.workers.isa());
   const Tiles tiles{n, kParticleTile};
   passes.each(tiles.tiles(), [&](std::size_t t) {
     lanes.weigh(particles, args.width, args.height, tiles.begin(t), tiles.end(t));
   });
+  return weighted;
 }
 
 // M, and B over the window that the likelihood uses.
-void sum_cells(const CellWeights::Args& args, const Passes& passes, CellWorkspace& space) {
+void sum_cells(const CellWeights::Args& args, const Passes& passes, std::span<const float> weighted,
+               CellWorkspace& space) {
   const CellRuns& runs = space.runs;
   space.cell_sum.resize(runs.size());
   space.box_sum.resize(runs.size());
   each_run(runs, passes, [&](std::size_t r) {
-    space.cell_sum[r] = static_cast<float>(sum_of(runs, r, space.weighted.data()));
+    space.cell_sum[r] = static_cast<float>(sum_of(runs, r, weighted.data()));
   });
   const int half_width = args.psi == Psi::window ? args.half_width : 0;
   const Tiles tiles{runs.size(), 512};
@@ -72,7 +78,8 @@ void sum_cells(const CellWeights::Args& args, const Passes& passes, CellWorkspac
 }
 
 // w' = w l / (lambda + Psi). P-PHD (14)-(16).
-void update(const CellWeights::Args& args, const Passes& passes, CellWorkspace& space) {
+void update(const CellWeights::Args& args, const Passes& passes, std::span<const float> weighted,
+            CellWorkspace& space) {
   CellRuns& runs = space.runs;
   runs.mass.resize(runs.size());
   each_run(runs, passes, [&](std::size_t r) {
@@ -80,7 +87,7 @@ void update(const CellWeights::Args& args, const Passes& passes, CellWorkspace& 
     const float inverse = normaliser > 0 ? 1 / normaliser : 0;
     for (std::uint32_t k = runs.first[r]; k < runs.first[r + 1]; ++k) {
       const std::uint32_t i = runs.order[k];
-      args.updated[i] = space.weighted[i] * inverse;
+      args.updated[i] = weighted[i] * inverse;
     }
     runs.mass[r] = space.cell_sum[r] * inverse;
   });
@@ -93,14 +100,14 @@ void CellWeights::tbb(const Args& args, Workers& workers) {
   CellWorkspace own;
   CellWorkspace& space = args.workspace ? *args.workspace : own;
   const Passes passes{workers, args.x.size() >= kParticleTile};
-  weigh(args, passes, space);
+  const std::span<const float> weighted = weigh(args, passes, space);
   const std::size_t outside =
       cell_weights::sort_cells(args.x.size(), args.width, args.height, passes, space);
   for (std::size_t k = args.x.size() - outside; k < args.x.size(); ++k) {
     args.updated[space.indices[k]] = 0;
   }
-  sum_cells(args, passes, space);
-  update(args, passes, space);
+  sum_cells(args, passes, weighted, space);
+  update(args, passes, weighted, space);
 }
 
 }  // namespace glint

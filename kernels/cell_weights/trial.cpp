@@ -20,7 +20,7 @@ struct Problem {
 class CellWeightsTrial : public Trial {
  public:
   explicit CellWeightsTrial(const Problem& problem) : problem_(problem) {
-    for (auto* array : {&x_, &y_, &predicted_, &log_ratio_, &updated_}) {
+    for (auto* array : {&x_, &y_, &predicted_, &log_ratio_, &updated_, &weighted_}) {
       array->resize(problem.particles);
     }
     for (std::size_t i = 0; i < problem.particles; ++i) set(i);
@@ -45,6 +45,7 @@ class CellWeightsTrial : public Trial {
                              .predicted = predicted_,
                              .log_ratio = log_ratio_,
                              .updated = updated_,
+                             .weighted = weighted_,
                              .workspace = &workspace_});
   }
   std::vector<Output> outputs() const override {
@@ -53,6 +54,7 @@ class CellWeightsTrial : public Trial {
     };
     const CellRuns& runs = workspace_.runs;
     return {{"updated", CellWeights::tolerance, list(updated_)},
+            {"weighted", CellWeights::tolerance, list(weighted_)},
             {"order", {}, list(runs.order)},
             {"cell", {}, list(runs.cell)},
             {"first", {}, list(runs.first)},
@@ -83,7 +85,7 @@ class CellWeightsTrial : public Trial {
   }
 
   Problem problem_;
-  std::vector<float> x_, y_, predicted_, log_ratio_, updated_;
+  std::vector<float> x_, y_, predicted_, log_ratio_, updated_, weighted_;
   CellWorkspace workspace_;
 };
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/kernels/core/device.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstring>
 #include <stdexcept>
 
 #include "glint/kernels/core/gl_context.hpp"
+#include "glint/kernels/core/gl_queue.hpp"
+#include "glint/kernels/core/tiles.hpp"
 
 namespace glint {
 namespace {
@@ -41,6 +45,46 @@ Device Device::named(std::string_view kind, int threads) {
   if (const int number = number_of(kind); number >= 0) return egl(number, threads);
   throw std::invalid_argument("device '" + std::string(kind) +
                               "' is not known: use auto, serial, tbb, egl or egl:N");
+}
+
+Kept Device::keep_region(const Region& region) const {
+  if (kind_ != DeviceKind::egl) return {};
+  context_->run([&](gl::Queue& queue) { queue.keep(region); });
+  return {context_, region.data};
+}
+
+void Device::send_region(const Region& region) const {
+  context_->run([&](gl::Queue& queue) { queue.send(region); });
+}
+
+void Device::fetch_region(const Region& region) const {
+  context_->run([&](gl::Queue& queue) { queue.fetch(region); });
+}
+
+void Device::copy_region(const Region& from, const Region& to) const {
+  if (kind_ == DeviceKind::egl) {
+    return context_->run([&](gl::Queue& queue) { queue.copy(from, to); });
+  }
+  const Tiles rows{from.rows, kRowTile};
+  workers_->for_tiles(rows.tiles(), [&](std::size_t tile) {
+    for (std::size_t y = rows.begin(tile); y < rows.end(tile); ++y) {
+      const auto row = static_cast<std::ptrdiff_t>(y);
+      std::memcpy(const_cast<std::byte*>(to.data) + row * to.pitch, from.data + row * from.pitch,
+                  from.row_bytes);
+    }
+  });
+}
+
+void Device::fill(std::span<float> values, float value) const {
+  if (kind_ == DeviceKind::egl) {
+    return context_->run([&](gl::Queue& queue) { queue.fill(values, value); });
+  }
+  std::ranges::fill(values, value);
+}
+
+Kept::~Kept() {
+  if (memory_ == nullptr) return;
+  context_->run([&](gl::Queue& queue) { queue.drop(memory_); });
 }
 
 std::string Device::description() const {

@@ -2,11 +2,14 @@
 #pragma once
 #include <concepts>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "glint/kernels/core/egl_devices.hpp"
+#include "glint/kernels/core/kept.hpp"
 #include "glint/kernels/core/kernel_clock.hpp"
+#include "glint/kernels/core/region.hpp"
 #include "glint/kernels/core/workers.hpp"
 
 namespace glint {
@@ -58,6 +61,33 @@ class Device {
     return timed;
   }
 
+  /// Gives memory (a std::span or an ImageView) its home on an egl device until the answer is gone:
+  /// kernels leave what they write there and read it there, and the host's bytes count only after a
+  /// fetch() or send(), until the next such write. What they held is not taken along. On other
+  /// devices nothing happens: the host's memory is the kernels' own. Throws std::logic_error if
+  /// part of it is kept already, std::runtime_error if the device's memory runs out.
+  template <class Memory>
+  Kept keep(Memory memory) const {
+    return keep_region(region_of(memory));
+  }
+  /// The host changed this memory, or part of it: kernels are to see it.
+  template <class Memory>
+  void send(Memory memory) const {
+    if (kind_ == DeviceKind::egl) send_region(region_of(memory));
+  }
+  /// The host is going to read this memory, or part of it.
+  template <class Memory>
+  void fetch(Memory memory) const {
+    if (kind_ == DeviceKind::egl) fetch_region(region_of(memory));
+  }
+  /// Copies rows of the same number and length, wherever they live.
+  template <class T>
+  void copy(ImageView<const T> from, ImageView<T> to) const {
+    copy_region(region_of(from), region_of(to));
+  }
+  /// Sets all values, wherever they live.
+  void fill(std::span<float> values, float value) const;
+
   template <Kernel K>
   void run(const typename K::Args& args) const {
     if (clock_ == nullptr) return choose<K>(args);
@@ -73,6 +103,11 @@ class Device {
     }
     K::tbb(args, *workers_);
   }
+
+  Kept keep_region(const Region& region) const;
+  void send_region(const Region& region) const;
+  void fetch_region(const Region& region) const;
+  void copy_region(const Region& from, const Region& to) const;
 
   Device(DeviceKind kind, int threads, Isa isa)
       : kind_(kind), workers_(std::make_shared<Workers>(threads, isa)) {}

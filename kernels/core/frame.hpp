@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -81,13 +83,29 @@ class Frame {
   explicit Frame(Image<float>&& image)
       : image_(std::make_shared<const Image<float>>(std::move(image))) {}
   explicit Frame(std::shared_ptr<const Image<float>> image) : image_(std::move(image)) {}
-  FrameView view() const { return image_ ? image_->view() : FrameView{}; }
+  /// An image whose pixels are still on a device: `fetch` brings them when someone asks.
+  Frame(std::shared_ptr<const Image<float>> image, std::function<void()> fetch)
+      : image_(std::move(image)), arrival_(std::make_shared<Arrival>()) {
+    arrival_->fetch = std::move(fetch);
+  }
+  /// From any thread. Throws what fetching throws.
+  FrameView view() const {
+    if (arrival_) std::call_once(arrival_->once, arrival_->fetch);
+    return for_kernels();
+  }
+  /// The same pixels for kernels alone, which find them on the device: the host's may not be there.
+  FrameView for_kernels() const { return image_ ? image_->view() : FrameView{}; }
   int width() const { return image_ ? image_->width() : 0; }
   int height() const { return image_ ? image_->height() : 0; }
   explicit operator bool() const { return image_ != nullptr; }
 
  private:
+  struct Arrival {
+    std::once_flag once;
+    std::function<void()> fetch;
+  };
   std::shared_ptr<const Image<float>> image_;
+  std::shared_ptr<Arrival> arrival_;
 };
 
 /// Pixels x0 <= x < x1, y0 <= y < y1.

@@ -85,9 +85,10 @@ Api load_api(const Egl& egl) {
   load(api.GenBuffers, "glGenBuffers");
   load(api.DeleteBuffers, "glDeleteBuffers");
   load(api.BindBuffer, "glBindBuffer");
-  load(api.BindBufferBase, "glBindBufferBase");
+  load(api.BindBufferRange, "glBindBufferRange");
   load(api.BufferData, "glBufferData");
   load(api.CopyBufferSubData, "glCopyBufferSubData");
+  load(api.ClearBufferSubData, "glClearBufferSubData");
   load(api.MapBufferRange, "glMapBufferRange");
   load(api.UnmapBuffer, "glUnmapBuffer");
   load(api.DispatchCompute, "glDispatchCompute");

@@ -42,7 +42,8 @@ struct Api {
                         kProgramRetrievable = 0x8257;
   static constexpr Enum kStorageBuffer = 0x90D2, kCopySource = 0x8F36, kCopyBuffer = 0x8F37,
                         kDynamicCopy = 0x88EA;
-  static constexpr Enum kMaxStorageBlock = 0x90DE;
+  static constexpr Enum kFloatWords = 0x822E, kRed = 0x1903, kFloat = 0x1406;
+  static constexpr Enum kMaxStorageBlock = 0x90DE, kMaxStorageBlocks = 0x90DB;
   static constexpr unsigned kMapRead = 1, kMapWrite = 2, kMapInvalidate = 4;
   static constexpr unsigned kAllBarriers = 0xFFFFFFFF;
   static constexpr Enum kDebugOutput = 0x92E0, kDebugSynchronous = 0x8242, kDebugError = 0x824C;
@@ -78,10 +79,13 @@ struct Api {
   void (*GenBuffers)(int count, unsigned* buffers);
   void (*DeleteBuffers)(int count, const unsigned* buffers);
   void (*BindBuffer)(Enum target, unsigned buffer);
-  void (*BindBufferBase)(Enum target, unsigned index, unsigned buffer);
+  void (*BindBufferRange)(Enum target, unsigned index, unsigned buffer, std::ptrdiff_t offset,
+                          std::ptrdiff_t size);
   void (*BufferData)(Enum target, std::ptrdiff_t size, const void* data, Enum usage);
   void (*CopyBufferSubData)(Enum from, Enum to, std::ptrdiff_t at, std::ptrdiff_t to_at,
                             std::ptrdiff_t size);
+  void (*ClearBufferSubData)(Enum target, Enum stored, std::ptrdiff_t offset, std::ptrdiff_t size,
+                             Enum format, Enum type, const void* value);
   void* (*MapBufferRange)(Enum target, std::ptrdiff_t offset, std::ptrdiff_t size, unsigned access);
   unsigned char (*UnmapBuffer)(Enum target);
   void (*DispatchCompute)(unsigned x, unsigned y, unsigned z);

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <chrono>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::size_t kGroup = 64;         // GLINT_GROUP of prelude.glsl
 constexpr std::size_t kMaxGroups = 65535;  // that every device takes along an axis
+constexpr std::size_t kAligned = 256;      // [bytes] where a pass may begin to see any buffer
+constexpr std::int32_t kMostBlocks = 10;   // that a pass uses: parameters and buffers
 
 constexpr const char* kSmaller = "take smaller frames, fewer particles or --device tbb";
 
@@ -27,10 +30,18 @@ std::string size_text(std::size_t bytes) {
   return bytes < kMega ? std::to_string(bytes) + " bytes" : std::to_string(bytes / kMega) + " MB";
 }
 
+/// Makes the host's bytes what no value should be: as floats they are NaN.
+void spoil(const Region& region) {
+  auto* row = const_cast<std::byte*>(region.data);
+  for (std::size_t y = 0; y < region.rows; ++y, row += region.pitch) {
+    std::memset(row, 0xFF, region.row_bytes);
+  }
+}
+
 }  // namespace
 
 Buffer::~Buffer() {
-  if (queue_ != nullptr) queue_->pool_.push_back({id_, capacity_});
+  if (queue_ != nullptr) queue_->pool_.push_back(place_);
 }
 
 Queue::Queue(const Api& api, const EglDevice& device, ProgramCache cache, bool debug)
@@ -38,7 +49,13 @@ Queue::Queue(const Api& api, const EglDevice& device, ProgramCache cache, bool d
   std::int64_t most = 0;
   api_.GetInteger64v(Api::kMaxStorageBlock, &most);
   constexpr std::int64_t kLargest = std::numeric_limits<std::int32_t>::max();
-  max_bytes_ = static_cast<std::size_t>(std::min(most, kLargest));
+  limit(static_cast<std::size_t>(std::min(most, kLargest)));
+  std::int32_t blocks = 0;
+  api_.GetIntegerv(Api::kMaxStorageBlocks, &blocks);
+  if (blocks < kMostBlocks) {
+    fail("it gives a compute shader " + std::to_string(blocks) + " storage blocks, not the " +
+         std::to_string(kMostBlocks) + " that are needed; use --device tbb");
+  }
   if (!debug) return;
   api_.Enable(Api::kDebugOutput);
   api_.Enable(Api::kDebugSynchronous);
@@ -67,23 +84,32 @@ void Queue::check(const std::string& doing) {
   }
 }
 
+void Queue::limit(std::size_t bytes) {
+  max_bytes_ = std::min(max_bytes_, std::max(bytes / kAligned * kAligned, kAligned));
+}
+
 Buffer Queue::take(std::size_t bytes) {
   if (bytes > max_bytes_) {
     fail("a buffer of " + size_text(bytes) + " is beyond its limit of " + size_text(max_bytes_) +
          "; use --device tbb");
   }
+  return allocate(bytes);
+}
+
+Buffer Queue::allocate(std::size_t bytes) {
   const std::size_t capacity = rounded(bytes);
-  const auto found = std::ranges::find(pool_, capacity, &Free::capacity);
+  const auto found = std::ranges::find(pool_, capacity, &Place::capacity);
   if (found != pool_.end()) {
-    const unsigned id = found->id;
+    const Place place = *found;
     pool_.erase(found);
-    return {*this, id, capacity};
+    return {this, place, bytes};
   }
   unsigned id = 0;
   api_.GenBuffers(1, &id);
-  if (reserve(id, capacity)) return {*this, id, capacity};
+  const auto made = [&] { return Buffer(this, Place{id, 0, capacity}, bytes); };
+  if (reserve(id, capacity)) return made();
   drop_pool();
-  if (reserve(id, capacity)) return {*this, id, capacity};
+  if (reserve(id, capacity)) return made();
   api_.DeleteBuffers(1, &id);
   fail("no memory for a buffer of " + size_text(capacity) + "; " + kSmaller);
 }
@@ -98,7 +124,7 @@ bool Queue::reserve(unsigned id, std::size_t capacity) {
 }
 
 void Queue::drop_pool() {
-  for (const Free& free : pool_) api_.DeleteBuffers(1, &free.id);
+  for (const Place& free : pool_) api_.DeleteBuffers(1, &free.id);
   pool_.clear();
 }
 
@@ -110,36 +136,129 @@ void Queue::timed(double& seconds, FunctionRef<void()> work) {
   seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void Queue::write_bytes(const Buffer& to, std::size_t offset, std::size_t bytes,
-                        FunctionRef<void(void*)> fill) {
+void Queue::write_host(Place to, const Region& region) {
+  const std::size_t bytes = region.bytes();
   if (bytes == 0) return;
   traffic_.uploaded += bytes;
   timed(traffic_.upload, [&] {
-    api_.BindBuffer(Api::kCopyBuffer, to.id_);
-    void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(offset),
+    api_.BindBuffer(Api::kCopyBuffer, to.id);
+    void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(to.offset),
                                    static_cast<std::ptrdiff_t>(bytes),
                                    Api::kMapWrite | Api::kMapInvalidate);
     check("while sending " + size_text(bytes));
     if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
-    fill(at);
+    const std::byte* row = region.data;
+    for (std::size_t y = 0; y < region.rows; ++y, row += region.pitch) {
+      std::memcpy(static_cast<std::byte*>(at) + y * region.row_bytes, row, region.row_bytes);
+    }
     api_.UnmapBuffer(Api::kCopyBuffer);
   });
 }
 
-void Queue::read_bytes(const Buffer& from, std::size_t offset, std::size_t bytes,
-                       FunctionRef<void(const void*)> copy) {
+void Queue::read_host(Place from, const Region& region) {
+  const std::size_t bytes = region.bytes();
   if (bytes == 0) return;
   traffic_.read += bytes;
   timed(traffic_.read_back, [&] {
     api_.MemoryBarrier(Api::kAllBarriers);
-    api_.BindBuffer(Api::kCopyBuffer, from.id_);
-    const void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(offset),
+    api_.BindBuffer(Api::kCopyBuffer, from.id);
+    const void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(from.offset),
                                          static_cast<std::ptrdiff_t>(bytes), Api::kMapRead);
     check("while reading " + size_text(bytes));
     if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
-    copy(at);
+    auto* row = const_cast<std::byte*>(region.data);
+    for (std::size_t y = 0; y < region.rows; ++y, row += region.pitch) {
+      std::memcpy(row, static_cast<const std::byte*>(at) + y * region.row_bytes, region.row_bytes);
+    }
     api_.UnmapBuffer(Api::kCopyBuffer);
   });
+}
+
+void Queue::copy(Place from, Place to, std::size_t bytes) {
+  timed(traffic_.compute, [&] {
+    api_.BindBuffer(Api::kCopySource, from.id);
+    api_.BindBuffer(Api::kCopyBuffer, to.id);
+    api_.CopyBufferSubData(
+        Api::kCopySource, Api::kCopyBuffer, static_cast<std::ptrdiff_t>(from.offset),
+        static_cast<std::ptrdiff_t>(to.offset), static_cast<std::ptrdiff_t>(bytes));
+    api_.MemoryBarrier(Api::kAllBarriers);
+  });
+  check("while copying " + size_text(bytes));
+}
+
+std::optional<Buffer> Queue::borrow(const Region& region) {
+  const std::optional<Place> place = residents_.find(region);
+  if (!place || place->offset % kAligned != 0 || region.bytes() > max_bytes_) return std::nullopt;
+  return Buffer(nullptr, *place, region.bytes());
+}
+
+Buffer Queue::upload(const Region& region) {
+  if (std::optional<Buffer> kept = borrow(region)) return std::move(*kept);
+  Buffer to = take(region.bytes());
+  write(to, region, 0);
+  return to;
+}
+
+Buffer Queue::output(const Region& region) {
+  if (std::optional<Buffer> kept = borrow(region)) return std::move(*kept);
+  return take(region.bytes());
+}
+
+void Queue::write(const Buffer& to, const Region& region, std::size_t offset) {
+  Place at = to.place_;
+  at.offset += offset;
+  if (const std::optional<Place> kept = residents_.find(region)) {
+    return copy(*kept, at, region.bytes());
+  }
+  write_host(at, region);
+}
+
+void Queue::read(const Buffer& from, const Region& region, std::size_t offset) {
+  Place at = from.place_;
+  at.offset += offset;
+  const std::optional<Place> kept = residents_.find(region);
+  if (!kept) return read_host(at, region);
+  if (keeping_ == Keeping::spoiling) spoil(region);
+  if (kept->id != at.id || kept->offset != at.offset) copy(at, *kept, region.bytes());
+}
+
+void Queue::fill(std::span<float> values, float value) {
+  const Region region = region_of(values);
+  const std::optional<Place> kept = residents_.find(region);
+  if (!kept) {
+    std::ranges::fill(values, value);
+    return;
+  }
+  timed(traffic_.compute, [&] {
+    api_.BindBuffer(Api::kCopyBuffer, kept->id);
+    api_.ClearBufferSubData(
+        Api::kCopyBuffer, Api::kFloatWords, static_cast<std::ptrdiff_t>(kept->offset),
+        static_cast<std::ptrdiff_t>(region.bytes()), Api::kRed, Api::kFloat, &value);
+    api_.MemoryBarrier(Api::kAllBarriers);
+  });
+  check("while filling " + size_text(region.bytes()));
+  if (keeping_ == Keeping::spoiling) spoil(region);
+}
+
+void Queue::keep(const Region& region) {
+  if (keeping_ == Keeping::never || region.bytes() == 0) return;
+  Buffer home = allocate(region.bytes());
+  residents_.add(region, home.place_.id, home.place_.capacity);
+  home.queue_ = nullptr;
+}
+
+void Queue::drop(const std::byte* region) {
+  if (const auto place = residents_.remove(region)) pool_.push_back(*place);
+}
+
+void Queue::send(const Region& region) {
+  const std::optional<Place> kept = residents_.find(region);
+  if (!kept) return;
+  write_host(*kept, region);
+}
+
+void Queue::fetch(const Region& region) {
+  if (const std::optional<Place> kept = residents_.find(region)) read_host(*kept, region);
 }
 
 double Queue::copy_seconds(std::size_t bytes, int times) {
@@ -148,14 +267,10 @@ double Queue::copy_seconds(std::size_t bytes, int times) {
   for (int i = 0; i < times; ++i) {
     api_.Finish();
     const auto start = std::chrono::steady_clock::now();
-    api_.BindBuffer(Api::kCopySource, from.id_);
-    api_.BindBuffer(Api::kCopyBuffer, to.id_);
-    api_.CopyBufferSubData(Api::kCopySource, Api::kCopyBuffer, 0, 0,
-                           static_cast<std::ptrdiff_t>(bytes));
+    copy(from.place_, to.place_, bytes);
     api_.Finish();
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     least = std::min(least, taken.count());
-    check("while copying " + size_text(bytes));
   }
   return least;
 }
@@ -165,8 +280,17 @@ std::uint32_t Queue::sum_before(const Buffer& counts, std::size_t count) {
   read(counts, std::span(scratch_));
   std::uint32_t sum = 0;
   for (std::uint32_t& value : scratch_) sum += std::exchange(value, sum);
-  write(counts, std::span<const std::uint32_t>(scratch_));
+  write(counts, std::span(scratch_));
   return sum;
+}
+
+void Queue::bind(unsigned binding, const Buffer& buffer) {
+  const Place& place = buffer.place_;
+  constexpr std::size_t kWord = sizeof(std::uint32_t);  // that shaders read bytes by
+  const std::size_t size = std::max(kWord, (buffer.bytes_ + kWord - 1) / kWord * kWord);
+  api_.BindBufferRange(Api::kStorageBuffer, binding, place.id,
+                       static_cast<std::ptrdiff_t>(place.offset),
+                       static_cast<std::ptrdiff_t>(size));
 }
 
 void Queue::dispatch(const Shader& shader, std::string_view pass, std::size_t items,
@@ -174,10 +298,8 @@ void Queue::dispatch(const Shader& shader, std::string_view pass, std::size_t it
   if (items == 0) return;
   api_.UseProgram(program(shader, pass));
   unsigned binding = 0;
-  api_.BindBufferBase(Api::kStorageBuffer, binding++, parameters.id_);
-  for (const Buffer* buffer : buffers) {
-    api_.BindBufferBase(Api::kStorageBuffer, binding++, buffer->id_);
-  }
+  bind(binding++, parameters);
+  for (const Buffer* buffer : buffers) bind(binding++, *buffer);
   const std::size_t groups = (items + kGroup - 1) / kGroup;
   const std::size_t columns = std::min(groups, kMaxGroups);
   const std::size_t rows = (groups + columns - 1) / columns;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,32 +19,33 @@
 #include "glint/kernels/core/function_ref.hpp"
 #include "glint/kernels/core/gl_api.hpp"
 #include "glint/kernels/core/gl_programs.hpp"
+#include "glint/kernels/core/gl_residents.hpp"
 
 namespace glint::gl {
 
 class Queue;
 
-/// Memory of the device; goes back to the queue's pool.
+/// Memory of the device: the queue's own, which goes back to its pool, or part of what it keeps.
 class Buffer {
  public:
   Buffer(Buffer&& other) noexcept
-      : queue_(std::exchange(other.queue_, nullptr)), id_(other.id_), capacity_(other.capacity_) {}
+      : queue_(std::exchange(other.queue_, nullptr)), place_(other.place_), bytes_(other.bytes_) {}
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
   Buffer& operator=(Buffer&& other) noexcept {
-    std::swap(queue_, other.queue_), std::swap(id_, other.id_);
-    std::swap(capacity_, other.capacity_);
+    std::swap(queue_, other.queue_), std::swap(place_, other.place_);
+    std::swap(bytes_, other.bytes_);
     return *this;
   }
   ~Buffer();
 
  private:
   friend class Queue;
-  Buffer(Queue& queue, unsigned id, std::size_t capacity)
-      : queue_(&queue), id_(id), capacity_(capacity) {}
-  Queue* queue_;
-  unsigned id_;
-  std::size_t capacity_;  ///< [bytes]
+  Buffer(Queue* owner, Place place, std::size_t bytes)
+      : queue_(owner), place_(place), bytes_(bytes) {}
+  Queue* queue_;  ///< null if it is not the buffer's to give back
+  Place place_;
+  std::size_t bytes_;  ///< that passes see
 };
 
 /// Rows [first, last) of a frame, made from rows [top, bottom).
@@ -69,7 +72,7 @@ class Queue {
   /// Most bytes that a pass sees of one buffer: larger problems are to be cut.
   std::size_t max_bytes() const { return max_bytes_; }
   /// Makes the limit smaller than the driver's.
-  void limit(std::size_t bytes) { max_bytes_ = std::min(max_bytes_, bytes); }
+  void limit(std::size_t bytes);
 
   /// See device_traffic.hpp.
   void time_traffic(bool timed) { timed_ = timed, traffic_ = {}; }
@@ -81,54 +84,59 @@ class Queue {
   Buffer buffer(std::size_t count) {
     return take(count * sizeof(T));
   }
+  /// Values, or an image's rows without the padding between them, for passes to read: where they
+  /// are if they are kept, else a copy. A pass that changes what is not kept changes the copy.
   template <class T>
-  Buffer upload(std::span<const T> values) {
-    Buffer to = buffer<T>(values.size());
-    write(to, values);
-    return to;
+  Buffer upload(std::span<T> values) {
+    return upload(region_of(values));
+  }
+  template <class T>
+  Buffer upload(ImageView<T> image) {
+    return upload(region_of(image));
+  }
+  /// Uninitialised memory for what is to become values, or rows of an image, by read(): where they
+  /// are if they are kept.
+  template <class T>
+  Buffer output(std::span<T> values) {
+    return output(region_of(values));
+  }
+  template <class T>
+  Buffer output(ImageView<T> image) {
+    return output(region_of(image));
   }
   /// Sets the buffer's values from number `first` on.
   template <class T>
-  void write(const Buffer& to, std::span<const T> values, std::size_t first = 0) {
-    write_bytes(to, first * sizeof(T), values.size_bytes(),
-                [&](void* at) { std::copy(values.begin(), values.end(), static_cast<T*>(at)); });
+  void write(const Buffer& to, std::span<T> values, std::size_t first = 0) {
+    write(to, region_of(values), first * sizeof(T));
   }
-  /// Sets the buffer's values from number `first` on to an image's rows, without the padding
-  /// between them.
   template <class T>
-  void write(const Buffer& to, ImageView<const T> image, std::size_t first = 0) {
-    const auto width = static_cast<std::size_t>(image.width);
-    const std::size_t bytes = width * static_cast<std::size_t>(image.height) * sizeof(T);
-    write_bytes(to, first * sizeof(T), bytes, [&](void* at) {
-      auto* row = static_cast<T*>(at);
-      for (int y = 0; y < image.height; ++y, row += width) std::copy_n(image.row(y), width, row);
-    });
-  }
-  /// Rows of an image without the padding between them.
-  template <class T>
-  Buffer upload(ImageView<const T> image) {
-    Buffer to =
-        buffer<T>(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    write(to, image);
-    return to;
+  void write(const Buffer& to, ImageView<T> image, std::size_t first = 0) {
+    write(to, region_of(image), first * sizeof(T));
   }
   /// Fills `values` from value number `first` of the buffer.
   template <class T>
   void read(const Buffer& from, std::span<T> values, std::size_t first = 0) {
-    read_bytes(from, first * sizeof(T), values.size_bytes(), [&](const void* at) {
-      std::copy_n(static_cast<const T*>(at), values.size(), values.begin());
-    });
+    read(from, region_of(values), first * sizeof(T));
   }
   /// Fills an image from rows without padding.
   template <class T>
   void read(const Buffer& from, ImageView<T> image) {
-    const auto width = static_cast<std::size_t>(image.width);
-    const std::size_t bytes = width * static_cast<std::size_t>(image.height) * sizeof(T);
-    read_bytes(from, 0, bytes, [&](const void* at) {
-      const auto* row = static_cast<const T*>(at);
-      for (int y = 0; y < image.height; ++y, row += width) std::copy_n(row, width, image.row(y));
-    });
+    read(from, region_of(image), 0);
   }
+
+  /// See Device::keep(): from now on the region lives on the device, uninitialised.
+  void keep(const Region& region);
+  void drop(const std::byte* region);
+  /// From the host to the device and back, of regions that are kept; others stay as they are.
+  void send(const Region& region);
+  void fetch(const Region& region);
+  /// Copies rows of the same number and length, wherever they live.
+  void copy(const Region& from, const Region& to) { read(upload(from), to, 0); }
+  void fill(std::span<float> values, float value);
+  /// For tests: what is kept from now on is not, or has its bytes on the host spoilt at every
+  /// write, so that nothing can rest on them.
+  enum class Keeping { plain, never, spoiling };
+  void set_keeping(Keeping keeping) { keeping_ = keeping; }
 
   /// Turns `count` counts into the sums of those before them; returns the sum of all.
   std::uint32_t sum_before(const Buffer& counts, std::size_t count);
@@ -139,24 +147,27 @@ class Queue {
   void run(const Shader& shader, std::string_view pass, std::size_t items,
            const Parameters& parameters, std::initializer_list<const Buffer*> buffers) {
     static_assert(std::is_trivially_copyable_v<Parameters> && alignof(Parameters) == 4);
-    const Buffer first = upload(std::span<const Parameters>(&parameters, 1));
+    const Buffer first = buffer<Parameters>(1);
+    write(first, std::span(&parameters, 1));
     dispatch(shader, pass, items, first, buffers);
   }
 
  private:
   friend class Buffer;
-  struct Free {
-    unsigned id;
-    std::size_t capacity;
-  };
 
   Buffer take(std::size_t bytes);
+  Buffer allocate(std::size_t bytes);
   bool reserve(unsigned id, std::size_t capacity);
   void drop_pool();
-  void write_bytes(const Buffer& to, std::size_t offset, std::size_t bytes,
-                   FunctionRef<void(void*)> fill);
-  void read_bytes(const Buffer& from, std::size_t offset, std::size_t bytes,
-                  FunctionRef<void(const void*)> copy);
+  Buffer upload(const Region& region);
+  Buffer output(const Region& region);
+  std::optional<Buffer> borrow(const Region& region);
+  void write(const Buffer& to, const Region& region, std::size_t offset);
+  void read(const Buffer& from, const Region& region, std::size_t offset);
+  void write_host(Place to, const Region& region);
+  void read_host(Place from, const Region& region);
+  void copy(Place from, Place to, std::size_t bytes);
+  void bind(unsigned binding, const Buffer& buffer);
   void dispatch(const Shader& shader, std::string_view pass, std::size_t items,
                 const Buffer& parameters, std::initializer_list<const Buffer*> buffers);
   unsigned program(const Shader& shader, std::string_view pass);
@@ -168,10 +179,12 @@ class Queue {
 
   const Api& api_;
   const EglDevice& device_;
-  std::size_t max_bytes_ = 0;
+  std::size_t max_bytes_ = std::numeric_limits<std::size_t>::max();
   bool timed_ = false;
   DeviceTraffic traffic_;
-  std::vector<Free> pool_;
+  std::vector<Place> pool_;
+  Residents residents_;
+  Keeping keeping_ = Keeping::plain;
   std::vector<std::uint32_t> scratch_;
   Programs programs_;
   std::string debug_error_;  ///< first message of the driver since the last check

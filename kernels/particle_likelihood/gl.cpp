@@ -36,7 +36,8 @@ void run_piece(gl::Queue& queue, const ParticleLikelihood::Args& args, ParticleB
     return queue.upload(values.subspan(band.first, band.count));
   };
   const gl::Buffer x = sent(args.x), y = sent(args.y), intensity = sent(args.intensity);
-  const gl::Buffer log_ratio = queue.buffer<float>(band.count);
+  const std::span<float> made = args.log_ratio.subspan(band.first, band.count);
+  const gl::Buffer log_ratio = queue.output(made);
   const std::size_t row = sizeof(float) * static_cast<std::size_t>(band.width);
   gl::each_band(queue, band.height, row, band.half_width, [&](gl::Band part) {
     band.top = part.top, band.row_first = part.first, band.row_last = part.last;
@@ -44,7 +45,7 @@ void run_piece(gl::Queue& queue, const ParticleLikelihood::Args& args, ParticleB
     queue.run(shaders::particle_likelihood, "ratios", band.count, band,
               {&frame, &x, &y, &intensity, &log_ratio});
   });
-  queue.read(log_ratio, args.log_ratio.subspan(band.first, band.count));
+  queue.read(log_ratio, made);
 }
 
 }  // namespace

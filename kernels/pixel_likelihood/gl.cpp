@@ -53,12 +53,13 @@ void run_band(gl::Queue& queue, const PixelLikelihood::Args& args, const ImageVi
   const int rows = band.last - band.first;
   const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(band.width);
   const gl::Buffer sent = queue.upload(gl::rows(frame, band.top, bottom));
-  const gl::Buffer sums = queue.buffer<float>(pixels), map = queue.buffer<float>(pixels);
+  const ImageView<float> made =
+      args.map.empty() ? args.map : gl::rows(args.map, band.first, band.last);
+  const gl::Buffer sums = queue.buffer<float>(pixels),
+                   map = made.empty() ? queue.buffer<float>(pixels) : queue.output(made);
   queue.run(kShader, "columns", pixels, band, {&sent, &sums});
   queue.run(kShader, "ratios", pixels, band, {&sent, &sums, &map});
-  if (!args.map.empty()) {
-    queue.read(map, gl::rows(args.map, band.first, band.last));
-  }
+  queue.read(map, made);
   if (args.hits != nullptr) append_hits(queue, band, pixels, map, *args.hits);
 }
 

@@ -23,14 +23,14 @@ bool convert(gl::Queue& queue, const ToGrey::Args& args, const T* data) {
                 args.reciprocal_floor,
                 ToGrey::kLargest};
   const uint none = 0;
-  const gl::Buffer masked = queue.upload(std::span<const uint>(&none, 1));
+  const gl::Buffer masked = queue.upload(std::span(&none, 1));
   const std::size_t of_pixel = std::max(sizeof(T) * band.channels, sizeof(float));
   const std::size_t row = of_pixel * static_cast<std::size_t>(raw.width);
   gl::each_band(queue, raw.height, row, 0, [&](const gl::Band& part) {
     const auto rows = static_cast<uint>(part.last - part.first);
     band.pixels = rows * static_cast<uint>(raw.width);
     const gl::Buffer sent = queue.upload(gl::rows(channels, part.first, part.last)),
-                     grey = queue.buffer<float>(band.pixels);
+                     grey = queue.output(gl::rows(args.grey, part.first, part.last));
     queue.run(shaders::prepare_frame_grey, "to_grey", band.pixels, band, {&sent, &grey, &masked});
     queue.read(grey, gl::rows(args.grey, part.first, part.last));
   });

@@ -18,9 +18,10 @@ std::size_t pixels_of(const MedianBand& band) {
 /// Runs `pass` for the band's pixels and fetches their medians.
 void make_medians(gl::Queue& queue, const gl::Shader& shader, std::string_view pass,
                   const MedianBand& band, const gl::Buffer& from, ImageView<float> median) {
-  const gl::Buffer medians = queue.buffer<float>(pixels_of(band));
+  const ImageView<float> made = gl::rows(median, band.first, band.last);
+  const gl::Buffer medians = queue.output(made);
   queue.run(shader, pass, pixels_of(band), band, {&from, &medians});
-  queue.read(medians, gl::rows(median, band.first, band.last));
+  queue.read(medians, made);
 }
 
 template <class T>

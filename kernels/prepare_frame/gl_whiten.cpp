@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "glint/kernels/core/gl_context.hpp"
 #include "glint/kernels/core/gl_queue.hpp"
 #include "glint/kernels/core/inline.hpp"
 #include "glint/kernels/prepare_frame/lanes.hpp"
-#include "glint/kernels/prepare_frame/residuals.hpp"
 #include "glint/kernels/prepare_frame/whiten.hpp"
+#include "glint_shaders/prepare_frame_residuals.hpp"
 #include "glint_shaders/prepare_frame_spread.hpp"
 #include "glint_shaders/prepare_frame_structure.hpp"
 #include "glint_shaders/prepare_frame_whiten.hpp"
@@ -33,9 +35,10 @@ void structure_band(gl::Queue& queue, const BackgroundStructure::Args& args, Str
   queue.run(shaders::prepare_frame_structure, "gradient", gradients, band, {&sent, &gradient});
   band.top = band.first, band.first = part.first, band.last = part.last;
   const std::size_t pixels = pixels_of(band.width, band.first, band.last);
-  const gl::Buffer structure = queue.buffer<float>(pixels);
+  const ImageView<float> made = gl::rows(args.structure, part.first, part.last);
+  const gl::Buffer structure = queue.output(made);
   queue.run(shaders::prepare_frame_structure, "dilate", pixels, band, {&gradient, &structure});
-  queue.read(structure, gl::rows(args.structure, part.first, part.last));
+  queue.read(structure, made);
 }
 
 WhitenBand whole_frame(const Whiten::Args& args) {
@@ -64,8 +67,8 @@ void whiten_band(gl::Queue& queue, const Whiten::Args& args, WhitenBand band,
                  const gl::Band& part) {
   band.top = part.top, band.bottom = part.bottom;
   band.first = part.first, band.last = part.last;
-  const std::size_t sent = pixels_of(band.width, band.top, band.bottom),
-                    made = pixels_of(band.width, band.first, band.last);
+  const std::size_t sent = pixels_of(band.width, band.top, band.bottom);
+  const ImageView<float> made = gl::rows(args.whitened, band.first, band.last);
   const ImageView<float> noise = noise_rows(args, band);
   const FrameView structure = band.structured != 0 ? args.structure : FrameView{};
   const gl::Buffer image = queue.upload(gl::rows(args.image, band.top, band.bottom)),
@@ -73,7 +76,7 @@ void whiten_band(gl::Queue& queue, const Whiten::Args& args, WhitenBand band,
                    least = queue.upload(
                        structure.empty() ? structure : gl::rows(structure, band.first, band.last)),
                    energies = queue.buffer<uint>(sent), rings = queue.buffer<Ring>(sent),
-                   whitened = queue.buffer<float>(made),
+                   whitened = queue.output(made),
                    noises = queue.buffer<float>(pixels_of(noise.width, 0, noise.height));
   const auto run = [&](std::string_view pass, std::size_t items) {
     queue.run(shaders::prepare_frame_whiten, pass, items, band,
@@ -83,9 +86,34 @@ void whiten_band(gl::Queue& queue, const Whiten::Args& args, WhitenBand band,
     run("energy", sent);
     run("along", sent);
   }
-  run("whiten", made);
-  queue.read(whitened, gl::rows(args.whitened, band.first, band.last));
+  run("whiten", pixels_of(band.width, band.first, band.last));
+  queue.read(whitened, made);
   queue.read(noises, noise);
+}
+
+/// Residuals on the grid, row by row.
+void gather_residuals(gl::Queue& queue, const RobustSpread::Args& args,
+                      std::vector<float>& residuals) {
+  const int width = args.image.width, step = RobustSpread::step(width, args.image.height);
+  const std::size_t row = sizeof(float) * static_cast<std::size_t>(width);
+  ResidualBand band{};
+  band.width = static_cast<uint>(width), band.step = static_cast<uint>(step);
+  band.columns = static_cast<uint>((width + step - 1) / step);
+  band.less = args.background.empty() ? 0 : 1;
+  gl::each_band(queue, args.image.height, row, 0, [&](const gl::Band& part) {
+    const int first = (part.first + step - 1) / step * step;
+    band.first = static_cast<uint>(first - part.first);
+    band.rows = static_cast<uint>(std::max(0, part.last - first + step - 1) / step);
+    const std::size_t before = residuals.size(), made = std::size_t{band.columns} * band.rows;
+    const FrameView less =
+        band.less != 0 ? gl::rows(args.background, part.first, part.last) : FrameView{};
+    const gl::Buffer image = queue.upload(gl::rows(args.image, part.first, part.last)),
+                     background = queue.upload(less), gathered = queue.buffer<float>(made);
+    queue.run(shaders::prepare_frame_residuals, "gather", made, band,
+              {&image, &background, &gathered});
+    residuals.resize(before + made);
+    queue.read(gathered, std::span(residuals).subspan(before));
+  });
 }
 
 }  // namespace
@@ -104,14 +132,18 @@ void BackgroundStructure::egl(const Args& args, gl::Context& context) {
 void RobustSpread::egl(const Args& args, gl::Context& context) {
   std::vector<float> own;
   std::vector<float>& residuals = args.workspace == nullptr ? own : *args.workspace;
-  const int n = prepare_frame::gather_residuals(args, residuals);
+  residuals.clear();
   *args.spread = {};
-  if (n == 0) return;
+  if (args.image.empty()) return;
   std::array<float, 2> found{};
   context.run([&](gl::Queue& queue) {
-    const auto known = std::span<const float>(residuals).first(static_cast<std::size_t>(n));
-    const gl::Buffer sent = queue.upload(known), spread = queue.buffer<float>(found.size());
-    queue.run(shaders::prepare_frame_spread, "robust_spread", 1, SpreadPass{n}, {&sent, &spread});
+    gather_residuals(queue, args, residuals);
+    std::erase_if(residuals, [](float r) { return std::isnan(r); });
+    if (residuals.empty()) return;
+    const gl::Buffer sent = queue.upload(std::span(residuals)),
+                     spread = queue.buffer<float>(found.size());
+    const SpreadPass pass{static_cast<int>(residuals.size())};
+    queue.run(shaders::prepare_frame_spread, "robust_spread", 1, pass, {&sent, &spread});
     queue.read(spread, std::span<float>(found));
   });
   args.spread->median = static_cast<double>(found[0]);

@@ -34,6 +34,11 @@ struct StructureBand {
   int width, height, top, first, last;
   float share;
 };
+// Pixels of every step-th row, from the `first` that was sent, and column.
+struct ResidualBand {
+  uint width, first, step, columns, rows;
+  uint less;  // whether there is a background to take off
+};
 struct SpreadPass {
   int count;
 };

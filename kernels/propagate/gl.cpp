@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <iterator>
 
@@ -35,27 +36,29 @@ DeviceStep step_of(const Propagate::Args& args) {
   return step;
 }
 
-/// Calls f(array, values) for each array of floats that the step changes.
-template <class F>
-void each_array(const Propagate::Args& args, const DeviceStep& step, const F& f) {
-  f(kX, args.x), f(kY, args.y), f(kVx, args.vx), f(kVy, args.vy), f(kIntensity, args.intensity);
-  if (step.accelerates != 0) f(kAx, args.ax), f(kAy, args.ay);
-}
-
+/// Particles [step.first, step.first + step.count). Arrays that the step does not look at
+/// are empty.
 void run_piece(gl::Queue& queue, const Propagate::Args& args, const DeviceStep& step) {
-  const std::size_t first = step.first, count = step.count;
-  const gl::Buffer state = queue.buffer<uint>(kArrays * count);
-  each_array(args, step, [&](uint array, std::span<float> values) {
-    queue.write(state, std::span<const float>(values.subspan(first, count)), array * count);
-  });
-  if (step.scaled != 0) queue.write(state, args.noise_scale.subspan(first, count), kScale * count);
-  const auto modes = step.modes > 1 ? args.mode.subspan(first, count) : std::span<uint>{};
-  queue.write(state, std::span<const uint>(modes), kMode * count);
-  queue.run(shaders::propagate, "move", count, step, {&state});
-  each_array(args, step, [&](uint array, std::span<float> values) {
-    queue.read(state, values.subspan(first, count), array * count);
-  });
-  queue.read(state, modes, kMode * count);
+  const auto piece = [&](auto values, bool used) {
+    return used ? values.subspan(step.first, step.count) : values.first(0);
+  };
+  const bool accelerates = step.accelerates != 0;
+  const std::array floats{piece(args.x, true),         piece(args.y, true),
+                          piece(args.vx, true),        piece(args.vy, true),
+                          piece(args.intensity, true), piece(args.ax, accelerates),
+                          piece(args.ay, accelerates)};
+  const auto modes = piece(args.mode, step.modes > 1);
+  const auto scales = piece(args.noise_scale, step.scaled != 0);
+  const gl::Buffer x = queue.upload(floats[0]), y = queue.upload(floats[1]),
+                   vx = queue.upload(floats[2]), vy = queue.upload(floats[3]),
+                   intensity = queue.upload(floats[4]), ax = queue.upload(floats[5]),
+                   ay = queue.upload(floats[6]), mode = queue.upload(modes),
+                   scale = queue.upload(scales);
+  const std::array moved{&x, &y, &vx, &vy, &intensity, &ax, &ay};
+  queue.run(shaders::propagate, "move", step.count, step,
+            {&x, &y, &vx, &vy, &intensity, &ax, &ay, &mode, &scale});
+  for (std::size_t i = 0; i < moved.size(); ++i) queue.read(*moved[i], floats[i]);
+  queue.read(mode, modes);
 }
 
 }  // namespace
@@ -64,7 +67,7 @@ void Propagate::egl(const Args& args, gl::Context& context) {
   propagate::check(args);
   DeviceStep step = step_of(args);
   context.run([&](gl::Queue& queue) {
-    const Tiles pieces{args.x.size(), queue.max_bytes() / (sizeof(uint) * kArrays)};
+    const Tiles pieces{args.x.size(), queue.max_bytes() / sizeof(uint)};
     for (std::size_t p = 0; p < pieces.tiles(); ++p) {
       step.first = static_cast<uint>(pieces.begin(p));
       step.count = static_cast<uint>(pieces.end(p) - pieces.begin(p));

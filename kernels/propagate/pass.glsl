@@ -12,6 +12,3 @@ struct DeviceStep {
   MoveTerms move[8];
   float cumulative[64];  // [8 from + to]: probability of a new mode <= to
 };
-// Arrays of the state, one after the other.
-const uint kX = 0u, kY = 1u, kVx = 2u, kVy = 3u, kIntensity = 4u, kAx = 5u, kAy = 6u, kMode = 7u,
-           kScale = 8u, kArrays = 9u;

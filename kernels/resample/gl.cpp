@@ -44,7 +44,7 @@ class DeviceDrawing {
         largest_(queue.buffer<uint>(chunks_)),
         sums_(queue.buffer<Sums>(chunks_)),
         before_(queue.buffer<int>(args.weights.size())),
-        ancestors_(queue.buffer<uint>(args.ancestors.size())) {
+        ancestors_(queue.output(args.ancestors)) {
     pass_.particles = static_cast<uint>(args.weights.size());
     pass_.offspring = static_cast<uint>(args.ancestors.size());
   }
@@ -80,7 +80,7 @@ class DeviceDrawing {
       before.copies += own.copies;
       before.mass += own.mass;
     }
-    queue_.write(sums_, std::span<const Sums>(sums));
+    queue_.write(sums_, std::span(sums));
     return before;
   }
 
@@ -102,13 +102,12 @@ class DeviceDrawing {
   }
 
   void move(MovedArray array) {
-    const auto* from = static_cast<const uint*>(array.source);
-    const gl::Buffer source = queue_.upload(std::span(from, args_.weights.size()));
-    const gl::Buffer destination = queue_.buffer<uint>(args_.ancestors.size());
+    const std::span from(static_cast<const uint*>(array.source), args_.weights.size());
+    const std::span to(static_cast<uint*>(array.destination), args_.ancestors.size());
+    const gl::Buffer source = queue_.upload(from), destination = queue_.output(to);
     queue_.run(kShader, "gather", args_.ancestors.size(), pass_,
                {&weights_, &largest_, &sums_, &before_, &ancestors_, &source, &destination});
-    queue_.read(destination,
-                std::span(static_cast<uint*>(array.destination), args_.ancestors.size()));
+    queue_.read(destination, to);
   }
 
   gl::Queue& queue_;

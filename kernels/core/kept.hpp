@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace glint {
+
+namespace gl {
+class Context;
+}
+
+/// Holds a piece of the host's memory on an egl device (Device::keep) for as long as it lives: it
+/// must go before the memory does.
+class Kept {
+ public:
+  Kept() = default;
+  Kept(std::shared_ptr<gl::Context> context, const std::byte* memory)
+      : context_(std::move(context)), memory_(memory) {}
+  Kept(Kept&& other) noexcept
+      : context_(std::move(other.context_)), memory_(std::exchange(other.memory_, nullptr)) {}
+  Kept& operator=(Kept&& other) noexcept {
+    std::swap(context_, other.context_), std::swap(memory_, other.memory_);
+    return *this;
+  }
+  Kept(const Kept&) = delete;
+  Kept& operator=(const Kept&) = delete;
+  ~Kept();
+
+ private:
+  std::shared_ptr<gl::Context> context_;
+  const std::byte* memory_ = nullptr;
+};
+
+}  // namespace glint
