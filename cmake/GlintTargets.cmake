@@ -50,7 +50,9 @@ function(glint_kernel name)
     list(APPEND sources ${dir}/${extra})
   endforeach()
   target_sources(glint PRIVATE ${sources})
-  glint_lanes(glint ${name} ${dir}/lanes.cpp)
+  if(EXISTS ${dir}/lanes.cpp)
+    glint_lanes(glint ${name} ${dir}/lanes.cpp)
+  endif()
 endfunction()
 
 # glint_gl(NAME [SHADERS files] [PARTS files]): adds kernels/NAME/gl.cpp and embeds its shaders, with

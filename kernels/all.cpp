@@ -10,6 +10,7 @@
 #include "glint/kernels/dp_stage/dp_stage.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
+#include "glint/kernels/pick_cells/pick_cells.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
 #include "glint/kernels/prepare_frame/prepare_frame.hpp"
 #include "glint/kernels/propagate/propagate.hpp"
@@ -36,6 +37,7 @@ std::span<const KernelEntry> all_kernels() {
       entry<CellIntegrals>(),
       entry<FindPoints>(),
       entry<BirthScores>(),
+      entry<PickCells>(),
       entry<DpStage>(),
       entry<AddNoise>(),
   };

@@ -10,6 +10,7 @@
 #include "glint/kernels/core/cells.hpp"
 #include "glint/kernels/core/tiles.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
+#include "glint/kernels/pick_cells/pick_cells.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
 #include "glint/kernels/resample/resample.hpp"
 
@@ -17,17 +18,6 @@ namespace glint {
 namespace {
 
 constexpr std::size_t kBirthTile = 512;
-
-/// Sum of row sums, in row order: the same for any number of threads. `rows` is scratch.
-double ordered_sum(std::span<const float> values, int width, int height, const Device& device,
-                   std::vector<double>& rows) {
-  rows.resize(static_cast<std::size_t>(height));
-  device.workers().for_tiles(rows.size(), [&](std::size_t y) {
-    const float* row = values.data() + y * static_cast<std::size_t>(width);
-    rows[y] = std::accumulate(row, row + width, 0.0);
-  });
-  return std::accumulate(rows.begin(), rows.end(), 0.0);
-}
 
 /// Pixels above the threshold, as flat indices.
 void cells_above(FrameView z, double threshold, std::vector<std::uint32_t>& cells) {
@@ -51,32 +41,6 @@ double window_sum(const CellWorkspace& cells, int width, int height, int half_wi
     for (; r < cell.size() && cell[r] <= last; ++r) sum += cells.cell_sum[r];
   }
   return sum;
-}
-
-struct PickedCell {
-  int x, y;
-  double total;  ///< of the scores in reach
-  float score;   ///< of the picked cell
-};
-
-/// Draws a cell within `reach` of (x, y) in proportion to its score; `u` is uniform in (0, 1).
-PickedCell pick_in_reach(std::span<const float> score, int width, int height, int x, int y,
-                         int reach, double u) {
-  const int x0 = std::max(0, x - reach), x1 = std::min(width - 1, x + reach);
-  const int y0 = std::max(0, y - reach), y1 = std::min(height - 1, y + reach);
-  const auto row_sum = [&](int j) {
-    const float* row = score.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(width);
-    return std::accumulate(row + x0, row + x1 + 1, 0.0);
-  };
-  double total = 0;
-  for (int j = y0; j <= y1; ++j) total += row_sum(j);
-  double left = u * total;
-  int j = y0;
-  for (double s = row_sum(j); j < y1 && left >= s; s = row_sum(j)) left -= s, ++j;
-  const float* row = score.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(width);
-  int i = x0;
-  for (; i < x1 && left >= row[i]; ++i) left -= row[i];
-  return {i, j, total, row[i]};
 }
 
 }  // namespace
@@ -116,6 +80,7 @@ void Births::look_at(const Frame& z, const PixelMask& mask) {
     map_ = KeptImage<float>(view.width, view.height, device_);
   }
   const std::span<float> score = now_.score.values();
+  row_sums_.resize(static_cast<std::size_t>(view.height));
   const auto intensity = static_cast<float>(std::sqrt(double{intensity_low_} * intensity_high_));
   device_.run<PixelLikelihood>(
       {.frame = view, .spread = spread_, .intensity = intensity, .map = map_.view()});
@@ -126,16 +91,10 @@ void Births::look_at(const Frame& z, const PixelMask& mask) {
                             .energy = static_cast<float>(energy * energy),
                             .intensity_low = intensity_low_,
                             .intensity_high = intensity_high_,
-                            .score = {score.data(), view.width, view.height, view.width}});
-  now_.score.fetch();
-  for (const Box& box : mask.boxes()) {
-    for (int y = box.y0; y < box.y1; ++y) {
-      float* row = score.data() + static_cast<std::ptrdiff_t>(y) * view.width;
-      std::fill(row + box.x0, row + box.x1, 0.0f);
-    }
-  }
-  if (!mask.empty()) now_.score.send();
-  now_.total = ordered_sum(score, view.width, view.height, device_, row_sums_);
+                            .score = {score.data(), view.width, view.height, view.width},
+                            .masked = mask.boxes(),
+                            .row_sums = row_sums_});
+  now_.total = std::accumulate(row_sums_.begin(), row_sums_.end(), 0.0);
 }
 
 std::size_t Births::draw(const BirthScan& scan, Particles& particles, std::size_t at) {
@@ -188,14 +147,42 @@ std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_
   return count;
 }
 
+/// `count` cells in proportion to their scores.
+void Births::draw_cells(const BirthFrame& frame, RandomKey key) {
+  const auto count = static_cast<std::size_t>(config_.count);
+  cells_.resize(count), cell_score_.resize(count);
+  const MovedArray scores{frame.score.values().data(), cell_score_.data()};
+  device_.run<Resample>({.weights = frame.score.values(),
+                         .ancestors = cells_,
+                         .key = key,
+                         .moved = std::span(&scores, 1),
+                         .workspace = &draws_});
+}
+
+/// For each of these cells of the frame before one of the present frame that a target may reach.
+void Births::pick_next_cells(RandomKey key, double step) {
+  const auto count = cells_.size();
+  uniform_.resize(count), next_cells_.resize(count);
+  next_score_.resize(count), next_total_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    uniform_[i] = uniform(random_words(key, static_cast<std::uint32_t>(i), 1).w[2]);
+  }
+  const int width = now_.whitened.width(), height = now_.whitened.height();
+  device_.run<PickCells>({.score = {now_.score.values().data(), width, height, width},
+                          .reach = static_cast<int>(std::ceil(config_.speed_max * step)),
+                          .cell = cells_,
+                          .uniform = uniform_,
+                          .picked = next_cells_,
+                          .picked_score = next_score_,
+                          .total = next_total_});
+}
+
 std::size_t Births::draw_matched(const BirthScan& scan, Particles& p, std::size_t at) {
   const int width = now_.whitened.width(), height = now_.whitened.height();
   const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
   const auto count = static_cast<std::size_t>(config_.count);
   const auto speed = static_cast<float>(config_.speed_max);
-  cells_.resize(count);
-  device_.run<Resample>(
-      {.weights = now_.score.values(), .ancestors = cells_, .key = key, .workspace = &draws_});
+  draw_cells(now_, key);
   const double mean = now_.total / (static_cast<double>(width) * height);
   for (std::size_t i = 0; i < count; ++i) {
     const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
@@ -208,8 +195,7 @@ std::size_t Births::draw_matched(const BirthScan& scan, Particles& p, std::size_
     p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
     p.intensity[to] = draw_intensity(b.w[2]);
     p.mode[to] = draw_mode(b.w[3]);
-    p.weight[to] =
-        static_cast<float>(config_.mass / config_.count * mean / now_.score.values()[cells_[i]]);
+    p.weight[to] = static_cast<float>(config_.mass / config_.count * mean / cell_score_[i]);
   }
   send(p, at);
   return count;
@@ -220,11 +206,9 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
   const int width = now_.whitened.width(), height = now_.whitened.height();
   const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
   const auto count = static_cast<std::size_t>(config_.count);
-  const int reach = static_cast<int>(std::ceil(config_.speed_max * step));
   for (auto* v : {&x_before_, &y_before_, &log_ratio_}) v->resize(count);
-  cells_.resize(count);
-  device_.run<Resample>(
-      {.weights = before_.score.values(), .ancestors = cells_, .key = key, .workspace = &draws_});
+  draw_cells(before_, key);
+  pick_next_cells(key, step);
 
   const double mean = before_.total / (static_cast<double>(width) * height);
   const double area = 4 * config_.speed_max * step * config_.speed_max * step;
@@ -234,8 +218,8 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
       const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
       const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 2);
       const auto [cx, cy] = pixel_at(cells_[i], width);
-      const auto next =
-          pick_in_reach(now_.score.values(), width, height, cx, cy, reach, uniform(a.w[2]));
+      const Pixel next = pixel_at(next_cells_[i], width);
+      const double next_score = next_score_[i];
       const std::size_t to = at + i;
       x_before_[i] = static_cast<float>(cx) + uniform(a.w[0]) - 0.5f;
       y_before_[i] = static_cast<float>(cy) + uniform(a.w[1]) - 0.5f;
@@ -249,11 +233,10 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
       const double explained =
           scan.clutter + window_sum(scan.previous, width, height, spread_.half_width, cx, cy);
       const bool possible =  // all cells in reach may be masked
-          next.score > 0 && std::abs(p.vx[to]) <= config_.speed_max &&
+          next_score > 0 && std::abs(p.vx[to]) <= config_.speed_max &&
           std::abs(p.vy[to]) <= config_.speed_max;
-      const double weight = config_.mass / config_.count * mean /
-                            before_.score.values()[cells_[i]] * next.total / (area * next.score) /
-                            explained;
+      const double weight = config_.mass / config_.count * mean / cell_score_[i] * next_total_[i] /
+                            (area * next_score) / explained;
       p.weight[to] = possible ? static_cast<float>(weight) : 0.0f;
     }
   });

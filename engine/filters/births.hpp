@@ -46,7 +46,7 @@ struct BirthScan {
 struct BirthFrame {
   explicit BirthFrame(const Device& device) : score(device) {}
   Frame whitened;
-  KeptArray<float> score;  ///< row by row, without padding; on the host, too
+  KeptArray<float> score;  ///< row by row, without padding
   double total = 0;        ///< sum of the scores
 };
 
@@ -70,6 +70,8 @@ class Births {
   std::size_t draw_matched(const BirthScan& scan, Particles& p, std::size_t at);
   std::size_t draw_two_frame(const BirthScan& scan, Particles& p, std::size_t at);
   void send(Particles& particles, std::size_t at) const;
+  void draw_cells(const BirthFrame& frame, RandomKey key);
+  void pick_next_cells(RandomKey key, double step);
   std::uint32_t draw_mode(std::uint32_t word) const;
   float draw_intensity(std::uint32_t word) const;
 
@@ -81,7 +83,9 @@ class Births {
   std::uint64_t seed_;
   BirthFrame now_, before_;
   KeptImage<float> map_;
-  std::vector<std::uint32_t> cells_;
+  std::vector<std::uint32_t> cells_, next_cells_;
+  AlignedVector<float> cell_score_, uniform_, next_score_;
+  std::vector<double> next_total_;
   AlignedVector<float> x_before_, y_before_, log_ratio_, updated_;
   std::vector<double> row_sums_;
   CellWorkspace shares_;

@@ -40,7 +40,7 @@ std::span<const PairStart> PairStarts::find(FrameView whitened, double reach) {
 void PairStarts::find_points(FrameView whitened) {
   if (whitened.empty()) return now_.clear();
   if (ratio_.width() != whitened.width || ratio_.height() != whitened.height) {
-    ratio_ = Image<float>(whitened.width, whitened.height);
+    ratio_ = KeptImage<float>(whitened.width, whitened.height, device_);
   }
   PixelLikelihood::Args likelihood;
   likelihood.frame = whitened;

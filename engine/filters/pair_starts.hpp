@@ -5,6 +5,7 @@
 
 #include "glint/kernels/core/device.hpp"
 #include "glint/kernels/core/frame.hpp"
+#include "glint/kernels/core/kept_memory.hpp"
 #include "glint/kernels/core/point_spread.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
 
@@ -40,7 +41,7 @@ class PairStarts {
   PointSpread spread_;
   double intensity_, threshold_;
   Device device_;
-  Image<float> ratio_;
+  KeptImage<float> ratio_;
   std::vector<Point> before_, now_;
   PointWorkspace workspace_;
   std::vector<PairStart> pairs_;

@@ -32,10 +32,10 @@ PathWindow::PathWindow(int stages, double separation, const Device& device)
 
 ImageView<float> PathWindow::next(int width, int height) {
   if (total_[0].width() != width || total_[0].height() != height) {
-    for (Image<float>& total : total_) total = Image<float>(width, height);
+    for (KeptImage<float>& total : total_) total = KeptImage<float>(width, height, device_);
     for (Stage& s : stages_) {
-      s.score = Image<float>(width, height);
-      s.dx = s.dy = Image<std::int8_t>(width, height);
+      s.score = KeptImage<float>(width, height, device_);
+      for (auto* moves : {&s.dx, &s.dy}) *moves = KeptImage<std::int8_t>(width, height, device_);
     }
     count_ = oldest_ = 0;
   }
@@ -60,6 +60,19 @@ void PathWindow::run() {
     args.dx = now.dx.view(), args.dy = now.dy.view();
     device_.run<DpStage>(args);
   }
+  for (Stage& s : stages_) s.fetched.assign(static_cast<std::size_t>(s.score.height()), false);
+}
+
+/// Paths are few: of what the stages keep on the device only the rows that they cross come back.
+void PathWindow::fetch_row(Stage& stage, int y) const {
+  if (stage.fetched[static_cast<std::size_t>(y)]) return;
+  stage.fetched[static_cast<std::size_t>(y)] = true;
+  const auto row = [y](const auto& image) {
+    const auto view = image.view();
+    return std::span(view.row(y), static_cast<std::size_t>(view.width));
+  };
+  device_.fetch(row(stage.score));
+  device_.fetch(row(stage.dx)), device_.fetch(row(stage.dy));
 }
 
 WindowPath PathWindow::trace(int x, int y) {
@@ -67,6 +80,7 @@ WindowPath PathWindow::trace(int x, int y) {
   path.last = stages_.size();
   for (std::size_t k = stages_.size(); k-- > 0;) {
     Stage& s = stage(k);
+    fetch_row(s, y);
     path.cells[k] = {x, y, s.score.view()(x, y)};
     path.total += path.cells[k].score;
     if (k == 0) break;

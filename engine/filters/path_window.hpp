@@ -8,6 +8,7 @@
 
 #include "glint/kernels/core/device.hpp"
 #include "glint/kernels/core/frame.hpp"
+#include "glint/kernels/core/kept_memory.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
 
 namespace glint {
@@ -50,12 +51,14 @@ class PathWindow {
 
  private:
   struct Stage {
-    Image<float> score;
-    Image<std::int8_t> dx, dy;
+    KeptImage<float> score;
+    KeptImage<std::int8_t> dx, dy;
     StageMoves moves;
+    std::vector<bool> fetched;  ///< by row: on the host since the last run
   };
   Stage& stage(std::size_t k) { return stages_[(oldest_ + k) % stages_.size()]; }
   void run();
+  void fetch_row(Stage& stage, int y) const;
   WindowPath trace(int x, int y);
   bool crowded(const WindowPath& path) const;
 
@@ -63,7 +66,7 @@ class PathWindow {
   Device device_;
   std::vector<Stage> stages_;  // a ring
   std::size_t oldest_ = 0, count_ = 0;
-  Image<float> total_[2];
+  KeptImage<float> total_[2];
   std::size_t newest_total_ = 0;
   std::vector<Point> terminals_;
   PointWorkspace workspace_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct BirthScores {
     float intensity = 1;  ///< that the map was made for [noise sigmas]
     float energy = 1;     ///< sum of the window's squared weights, B
     float intensity_low = 1, intensity_high = 1;
-    float low = -8, high = 20;  ///< clamp of the log ratio
-    ImageView<float> score;     ///< written; size of the map
+    float low = -8, high = 20;         ///< clamp of the log ratio
+    ImageView<float> score;            ///< written; size of the map
+    std::span<const Box> masked = {};  ///< inside the map: scores there are 0
+    std::span<double> row_sums = {};   ///< written if given, one a row: sum of its scores
   };
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);

@@ -10,7 +10,9 @@ namespace {
 
 class BirthScoresTrial : public Trial {
  public:
-  BirthScoresTrial(int width, int height) : map_(width, height), score_(width, height) {
+  BirthScoresTrial(int width, int height)
+      : map_(width, height), score_(width, height), row_sums_(static_cast<std::size_t>(height)) {
+    if (height > 40) masked_ = {{0, 0, 5, 3}, {9, 20, width, 40}};
     const RandomKey key = random_key(1, 0, Purpose::trial);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
@@ -28,7 +30,9 @@ class BirthScoresTrial : public Trial {
                              .energy = 0.138f,
                              .intensity_low = 5,
                              .intensity_high = 40,
-                             .score = score_.view()});
+                             .score = score_.view(),
+                             .masked = masked_,
+                             .row_sums = row_sums_});
   }
   std::vector<Output> outputs() const override {
     Output out{"score", BirthScores::tolerance, {}};
@@ -36,11 +40,13 @@ class BirthScoresTrial : public Trial {
       const float* row = score_.view().row(y);
       out.values.insert(out.values.end(), row, row + score_.width());
     }
-    return {out};
+    return {out, {"row_sums", BirthScores::tolerance, row_sums_}};
   }
 
  private:
   Image<float> map_, score_;
+  std::vector<Box> masked_;
+  std::vector<double> row_sums_;
 };
 
 }  // namespace

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// One stage of the dynamic program: the best predecessor of every cell. Moves are bytes, dx in the
-// low one and dy in the next of a word.
+// One stage of the dynamic program: the best predecessor of every cell. Moves are bytes, four cells a
+// word; best_moves holds dx in the low byte and dy in the next of a cell's own word.
 #include "glint/kernels/core/prelude.glsl"
 #include "glint/kernels/dp_stage/pass.glsl"
 
 layout(std430, binding = 0) readonly buffer Parameters { StageBand band; };
 layout(std430, binding = 1) readonly buffer Score { float score[]; };
 layout(std430, binding = 2) readonly buffer Before { float before[]; };
-layout(std430, binding = 3) readonly buffer Moves { int moves[]; };
-layout(std430, binding = 4) writeonly buffer Total { float total[]; };
-layout(std430, binding = 5) writeonly buffer Best { int best_moves[]; };
+layout(std430, binding = 3) readonly buffer MovesX { int moves_x[]; };
+layout(std430, binding = 4) readonly buffer MovesY { int moves_y[]; };
+layout(std430, binding = 5) writeonly buffer Total { float total[]; };
+layout(std430, binding = 6) buffer Best { uint best_moves[]; };
+layout(std430, binding = 7) writeonly buffer BestX { uint best_x[]; };
+layout(std430, binding = 8) writeonly buffer BestY { uint best_y[]; };
 
 bool may_follow(int at, int dx, int dy) {
   if (band.follows == 0u) return true;
-  int move = moves[at];
-  return abs(dx - bitfieldExtract(move, 0, 8)) <= band.tolerance &&
-         abs(dy - bitfieldExtract(move, 8, 8)) <= band.tolerance;
+  int shift = 8 * (at & 3);
+  return abs(dx - bitfieldExtract(moves_x[at >> 2], shift, 8)) <= band.tolerance &&
+         abs(dy - bitfieldExtract(moves_y[at >> 2], shift, 8)) <= band.tolerance;
 }
 
 void stage() {
@@ -36,5 +39,19 @@ void stage() {
   }
   precise float sum = score[i] + best;
   total[i] = sum;
-  best_moves[i] = (best_dx & 0xff) | (best_dy & 0xff) << 8;
+  best_moves[i] = uint((best_dx & 0xff) | (best_dy & 0xff) << 8);
+}
+
+// From a word a cell to bytes.
+void split() {
+  uint word = item(), cells = uint(band.width * (band.last - band.first));
+  if (4u * word >= cells) return;
+  uint x = 0u, y = 0u;
+  for (uint k = 0u; k < 4u && 4u * word + k < cells; ++k) {
+    uint move = best_moves[4u * word + k];
+    x |= (move & 0xffu) << 8u * k;
+    y |= (move >> 8u) << 8u * k;
+  }
+  best_x[word] = x;
+  best_y[word] = y;
 }

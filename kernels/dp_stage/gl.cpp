@@ -12,44 +12,33 @@ namespace {
 
 #include "glint/kernels/dp_stage/pass.glsl"
 
-/// dx in the low byte, dy in the next.
-std::vector<uint> packed(const MovesView& moves, int top, int bottom) {
-  std::vector<uint> words;
-  for (int y = top; y < bottom && !moves.empty(); ++y) {
-    for (int x = 0; x < moves.dx.width; ++x) {
-      words.push_back(static_cast<std::uint8_t>(moves.dx(x, y)) |
-                      static_cast<uint>(static_cast<std::uint8_t>(moves.dy(x, y))) << 8);
-    }
-  }
-  return words;
-}
-
-void unpack(const std::vector<uint>& words, const DpStage::Args& args, int first, int last) {
-  auto word = words.begin();
-  for (int y = first; y < last; ++y) {
-    for (int x = 0; x < args.dx.width; ++x, ++word) {
-      args.dx(x, y) = static_cast<std::int8_t>(*word & 0xff);
-      args.dy(x, y) = static_cast<std::int8_t>(*word >> 8 & 0xff);
-    }
-  }
-}
-
+/// Bands go from top to bottom: a band's last word of moves may spoil the first bytes of the next.
 void run_band(gl::Queue& queue, const DpStage::Args& args, const gl::Band& part) {
   const StageBand band{
       args.score.width, args.score.height, part.top,       part.first,
       part.last,        args.reach,        args.tolerance, args.moves.empty() ? 0u : 1u};
   const auto cells =
       static_cast<std::size_t>(band.width) * static_cast<std::size_t>(band.last - band.first);
-  std::vector<uint> moves = packed(args.moves, part.top, part.bottom);
+  const auto moves = [&](const ImageView<const std::int8_t>& all) {
+    return queue.upload(all.empty() ? all : gl::rows(all, part.top, part.bottom));
+  };
+  const ImageView<float> made = gl::rows(args.total, part.first, part.last);
+  const ImageView<std::int8_t> dx = gl::rows(args.dx, part.first, part.last),
+                               dy = gl::rows(args.dy, part.first, part.last);
   const gl::Buffer score = queue.upload(gl::rows(args.score, part.first, part.last)),
                    before = queue.upload(gl::rows(args.before, part.top, part.bottom)),
-                   sent = queue.upload(std::span<const uint>(moves)),
-                   total = queue.buffer<float>(cells), best = queue.buffer<uint>(cells);
-  queue.run(shaders::dp_stage, "stage", cells, band, {&score, &before, &sent, &total, &best});
-  queue.read(total, gl::rows(args.total, part.first, part.last));
-  moves.resize(cells);
-  queue.read(best, std::span(moves));
-  unpack(moves, args, part.first, part.last);
+                   moves_x = moves(args.moves.dx), moves_y = moves(args.moves.dy),
+                   total = queue.output(made), best = queue.buffer<uint>(cells),
+                   best_x = queue.output(dx), best_y = queue.output(dy);
+  const auto run = [&](std::string_view pass, std::size_t items) {
+    queue.run(shaders::dp_stage, pass, items, band,
+              {&score, &before, &moves_x, &moves_y, &total, &best, &best_x, &best_y});
+  };
+  run("stage", cells);
+  run("split", (cells + 3) / 4);
+  queue.read(total, made);
+  queue.read(best_x, dx);
+  queue.read(best_y, dy);
 }
 
 }  // namespace
