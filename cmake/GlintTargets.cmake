@@ -55,11 +55,11 @@ function(glint_kernel name)
   endif()
 endfunction()
 
-# glint_gl(NAME [SHADERS files] [PARTS files]): adds kernels/NAME/gl.cpp and embeds its shaders, with
-# what they include put in: NAME.comp as glint::shaders::NAME, or each SHADERS's FILE.comp as
+# glint_shaders(NAME [SHADERS files] [PARTS files]): embeds the shaders of kernels/NAME, with what they
+# include put in: NAME.comp as glint::shaders::NAME, or each SHADERS's FILE.comp as
 # glint::shaders::NAME_FILE. They are listed in glint's property GLINT_SHADERS for the tests. PARTS are
 # the included files, from kernels/.
-function(glint_gl name)
+function(glint_shaders name)
   cmake_parse_arguments(arg "" "" "SHADERS;PARTS" ${ARGN})
   set(dir ${PROJECT_SOURCE_DIR}/kernels/${name})
   set(out ${PROJECT_BINARY_DIR}/shaders)
@@ -82,6 +82,11 @@ function(glint_gl name)
     add_dependencies(glint glint_shader_${shader})
     set_property(TARGET glint APPEND PROPERTY GLINT_SHADERS ${shader})
   endforeach()
-  target_sources(glint PRIVATE ${dir}/gl.cpp)
   target_include_directories(glint PRIVATE ${out})
+endfunction()
+
+# glint_gl(NAME ...): adds kernels/NAME/gl.cpp with its shaders, as glint_shaders() does.
+function(glint_gl name)
+  glint_shaders(${name} ${ARGN})
+  target_sources(glint PRIVATE ${PROJECT_SOURCE_DIR}/kernels/${name}/gl.cpp)
 endfunction()

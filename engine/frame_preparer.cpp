@@ -79,6 +79,7 @@ struct FramePreparer::State {
     bool masked;  ///< some pixel is NaN
   };
 
+  Kept stage(const RawPixels& raw) const;
   bool masks() const { return ignored.width() > 0; }
   Grey take_grey(const RawPixels& raw);
   BackgroundInput input_of(const RawPixels& raw, FrameView grey) const {
@@ -93,8 +94,17 @@ struct FramePreparer::State {
   void fill_masked(ImageView<float> grey) const;
 };
 
-FramePreparer::State::Grey FramePreparer::State::take_grey(const RawPixels& raw) {
+/// Sends the frame ahead: grey pixels and the background's samples are made of it.
+Kept FramePreparer::State::stage(const RawPixels& raw) const {
   check(raw);
+  return std::visit(
+      [&](const auto* data) {
+        return device.stage(ImageView{data, raw.width * raw.channels, raw.height, raw.pitch});
+      },
+      raw.data);
+}
+
+FramePreparer::State::Grey FramePreparer::State::take_grey(const RawPixels& raw) {
   if (background.width() == 0) start(raw);
   check_like_first(raw);
   Grey grey{pool.take(raw.width, raw.height), false};
@@ -212,12 +222,14 @@ void FramePreparer::set_mask(Image<std::uint8_t> ignored) {
 }
 
 void FramePreparer::learn(const RawPixels& raw) {
+  const Kept sent = state_->stage(raw);
   const auto grey = state_->take_grey(raw).image;
   state_->model->learn(state_->input_of(raw, grey->view()));
 }
 
 Scan FramePreparer::prepare(const RawPixels& raw, std::int64_t frame, double time) {
   State& s = *state_;
+  const Kept sent = s.stage(raw);
   const auto [grey, masked] = s.take_grey(raw);
   const BackgroundInput input = s.input_of(raw, grey->view());
   s.estimate_background(input);

@@ -8,9 +8,10 @@
 #include <limits>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "glint/kernels/core/egl_hardware.hpp"
-#include "glint/kernels/core/particles.hpp"
+#include "glint/kernels/core/kept_memory.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
 #include "glint/kernels/propagate/propagate.hpp"
@@ -22,49 +23,66 @@ constexpr int kSide = 1024;  // [px]
 constexpr std::size_t kParticles = 200000;
 constexpr int kTimes = 3;
 
-/// A scan's dearest kernels on made-up data: a frame of 1 M pixels and a cloud of particles.
+/// A scan's dearest kernels on made-up data, a frame of 1 M pixels and a cloud of particles: as in
+/// a tracker the frame goes up anew, the rest stays on the device, and the result comes back.
 class Calibration {
  public:
-  Calibration() : frame_(kSide, kSide), map_(kSide, kSide), log_ratio_(kParticles) {
-    cloud_.resize(kParticles);
-    for (std::size_t i = 0; i < kParticles; ++i) {
-      const auto at = static_cast<std::uint32_t>(i) * 2654435761u;
-      cloud_.x[i] = static_cast<float>(at % kSide);
-      cloud_.y[i] = static_cast<float>((at >> 16) % kSide);
-      cloud_.intensity[i] = 5;
+  explicit Calibration(const Device& device)
+      : device_(device), frame_(kSide, kSide), map_(kSide, kSide, device), log_ratio_(device) {
+    const auto kept = [&](float first, std::uint32_t factor, std::uint32_t values) {
+      KeptArray<float> array(device);
+      array.resize(kParticles);
+      std::uint32_t at = 0;
+      for (float& value : array.values()) {
+        value = first + static_cast<float>((at++ * factor >> 8) % values);
+      }
+      array.send();
+      return array;
+    };
+    for (const std::uint32_t factor : {2654435761u, 2246822519u}) {
+      arrays_.push_back(kept(0, factor, kSide));  // x, y
     }
+    for (int i = 0; i < 2; ++i) arrays_.push_back(kept(0, 1, 1));  // vx, vy
+    arrays_.push_back(kept(5, 1, 1));                              // intensity
+    log_ratio_.resize(kParticles);
   }
-  void run(const Device& device) {
+  void run() {
+    const FrameView frame = std::as_const(frame_).view();
+    const Kept sent = device_.stage(frame);
     const PointSpread spread = PointSpread::of(.7);
     PixelLikelihood::Args pixels;
-    pixels.frame = std::as_const(frame_).view();
+    pixels.frame = frame;
     pixels.spread = spread;
     pixels.intensity = 5;
     pixels.map = map_.view();
-    device.run<PixelLikelihood>(pixels);
+    device_.run<PixelLikelihood>(pixels);
     static constexpr MotionMode kVelocity{};
-    Particles& p = cloud_;
-    Propagate::Args moves{p.x, p.y, p.vx, p.vy, p.intensity, {}, {}, {}, {&kVelocity, 1}, {}};
+    const auto array = [&](std::size_t i) { return arrays_[i].values(); };
+    Propagate::Args moves{array(0), array(1), array(2), array(3),        array(4),
+                          {},       {},       {},       {&kVelocity, 1}, {}};
     moves.intensity_high = 10;
-    device.run<Propagate>(moves);
-    device.run<ParticleLikelihood>(
-        {std::as_const(frame_).view(), spread, p.x, p.y, p.intensity, log_ratio_});
+    device_.run<Propagate>(moves);
+    device_.run<ParticleLikelihood>(
+        {frame, spread, array(0), array(1), array(4), log_ratio_.values()});
+    log_ratio_.fetch();
   }
 
  private:
-  Image<float> frame_, map_;
-  Particles cloud_;
-  AlignedVector<float> log_ratio_;
+  Device device_;
+  Image<float> frame_;
+  KeptImage<float> map_;
+  std::vector<KeptArray<float>> arrays_;
+  KeptArray<float> log_ratio_;
 };
 
 /// The least of a few, after one that compiles shaders and touches memory.
 double calibrate(const Device& device) {
-  Calibration work;
-  work.run(device);
+  Calibration work(device);
+  work.run();
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kTimes; ++i) {
     const auto start = std::chrono::steady_clock::now();
-    work.run(device);
+    work.run();
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     least = std::min(least, taken.count());
   }

@@ -68,6 +68,7 @@ struct CellWeights {
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
   static void egl(const Args& args, gl::Context& context);
+  static WholeCall whole(const Args& args);
   static std::vector<std::unique_ptr<Trial>> trials();
 };
 

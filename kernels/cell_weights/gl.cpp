@@ -6,6 +6,7 @@
 #include "glint/kernels/cell_weights/cells.hpp"
 #include "glint/kernels/core/gl_context.hpp"
 #include "glint/kernels/core/gl_queue.hpp"
+#include "glint/kernels/core/gl_scan.hpp"
 #include "glint/kernels/core/inline.hpp"
 #include "glint_shaders/cell_weights_boxes.hpp"
 #include "glint_shaders/cell_weights_sort.hpp"
@@ -42,7 +43,7 @@ Sorted sort_by_cell(gl::Queue& queue, CellPass pass, gl::Buffer keys) {
   for (int shift = 0; shift < bits; shift += kBits) {
     pass.shift = static_cast<uint>(shift);
     queue.run(shaders::cell_weights_sort, "count_digits", chunks, pass, {&keys, &counts});
-    queue.sum_before(counts, chunks * kDigits);
+    gl::scan(queue, counts, chunks * kDigits);
     gl::Buffer sorted_keys = queue.buffer<uint>(pass.count);
     gl::Buffer sorted = queue.buffer<uint>(pass.count);
     queue.run(shaders::cell_weights_sort, "sort", chunks, pass,
@@ -63,8 +64,8 @@ Runs find_runs(gl::Queue& queue, const CellPass& pass, const Sorted& sorted, Cel
   const gl::Buffer& none = sorted.order;  // items, which these passes do not read
   queue.run(shaders::cell_weights_sort, "count_runs", chunks, pass,
             {&sorted.keys, &starts, &none, &insides});
-  const std::size_t count = queue.sum_before(starts, chunks);
-  const uint inside = queue.sum_before(insides, chunks);
+  const std::size_t count = gl::sum_before(queue, starts, chunks);
+  const uint inside = gl::sum_before(queue, insides, chunks);
   gl::Buffer cell = queue.buffer<uint>(count), first = queue.buffer<uint>(count + 1);
   queue.run(shaders::cell_weights_sort, "write_runs", chunks, pass,
             {&sorted.keys, &starts, &none, &cell, &first});
@@ -109,6 +110,13 @@ void update(gl::Queue& queue, const CellWeights::Args& args, CellWorkspace& spac
 }
 
 }  // namespace
+
+WholeCall CellWeights::whole(const Args& args) {
+  return {
+      args.x.size_bytes(),
+      {region_of(args.x), region_of(args.y), region_of(args.predicted), region_of(args.log_ratio)},
+      {region_of(args.updated), region_of(args.weighted)}};
+}
 
 void CellWeights::egl(const Args& args, gl::Context& context) {
   cell_weights::check(args);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 
 #include "glint/kernels/core/gl_context.hpp"
@@ -51,6 +53,30 @@ Kept Device::keep_region(const Region& region) const {
   if (kind_ != DeviceKind::egl) return {};
   context_->run([&](gl::Queue& queue) { queue.keep(region); });
   return {context_, region.data};
+}
+
+Kept Device::stage_region(const Region& region) const {
+  if (kind_ != DeviceKind::egl || region.bytes() == 0) return {};
+  const std::optional<gl::StagingSlot> slot = context_->staging_slot(region.bytes());
+  if (!slot) return {};  // then it goes up when a kernel asks for it
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t y = 0; y < region.rows; ++y) {
+    std::memcpy(slot->at + y * region.row_bytes,
+                region.data + static_cast<std::ptrdiff_t>(y) * region.pitch, region.row_bytes);
+  }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  bool staged = false;
+  context_->run(
+      [&](gl::Queue& queue) { staged = queue.keep_staged(region, *slot, taken.count()); });
+  return staged ? Kept(context_, region.data) : Kept();
+}
+
+bool Device::fits(const WholeCall& call) const { return call.bytes <= context_->max_bytes(); }
+
+void Device::on_host(const WholeCall& call, FunctionRef<void()> run) const {
+  for (const Region& region : call.read) fetch_region(region);
+  run();
+  for (const Region& region : call.written) send_region(region);
 }
 
 void Device::send_region(const Region& region) const {

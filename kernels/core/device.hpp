@@ -5,8 +5,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "glint/kernels/core/egl_devices.hpp"
+#include "glint/kernels/core/function_ref.hpp"
 #include "glint/kernels/core/kept.hpp"
 #include "glint/kernels/core/kernel_clock.hpp"
 #include "glint/kernels/core/region.hpp"
@@ -31,6 +33,18 @@ concept Kernel = requires(const typename K::Args& args, Workers& workers) {
 template <class K>
 concept EglKernel = Kernel<K> && requires(const typename K::Args& args, gl::Context& context) {
   K::egl(args, context);
+};
+
+/// What a call needs at once on an egl device, for kernels that cannot be cut into pieces there.
+struct WholeCall {
+  std::size_t bytes;                  ///< of its largest buffer
+  std::vector<Region> read, written;  ///< memory that may be kept
+};
+
+/// A kernel that runs on tbb if a call does not fit an egl device's buffers.
+template <class K>
+concept WholeEglKernel = EglKernel<K> && requires(const typename K::Args& args) {
+  { K::whole(args) } -> std::same_as<WholeCall>;
 };
 
 /// Where kernels run. A new kind of device is an enumerator, a branch in run(), and a function in
@@ -70,6 +84,12 @@ class Device {
   Kept keep(Memory memory) const {
     return keep_region(region_of(memory));
   }
+  /// Sends memory ahead, until the answer is gone: the calling thread copies it while the device
+  /// works on, and kernels find it there. It must not change meanwhile. The host's bytes stay good.
+  template <class Memory>
+  Kept stage(Memory memory) const {
+    return stage_region(region_of(memory));
+  }
   /// The host changed this memory, or part of it: kernels are to see it.
   template <class Memory>
   void send(Memory memory) const {
@@ -98,13 +118,22 @@ class Device {
   template <Kernel K>
   void choose(const typename K::Args& args) const {
     if (kind_ == DeviceKind::serial) return K::serial(args);
+    if constexpr (WholeEglKernel<K>) {
+      if (kind_ == DeviceKind::egl) {
+        const WholeCall call = K::whole(args);
+        if (!fits(call)) return on_host(call, [&] { K::tbb(args, *workers_); });
+      }
+    }
     if constexpr (EglKernel<K>) {
       if (kind_ == DeviceKind::egl) return K::egl(args, *context_);
     }
     K::tbb(args, *workers_);
   }
+  bool fits(const WholeCall& call) const;
+  void on_host(const WholeCall& call, FunctionRef<void()> run) const;
 
   Kept keep_region(const Region& region) const;
+  Kept stage_region(const Region& region) const;
   void send_region(const Region& region) const;
   void fetch_region(const Region& region) const;
   void copy_region(const Region& from, const Region& to) const;

@@ -94,6 +94,10 @@ Api load_api(const Egl& egl) {
   load(api.DispatchCompute, "glDispatchCompute");
   load(api.MemoryBarrier, "glMemoryBarrier");
   load(api.Finish, "glFinish");
+  load(api.FenceSync, "glFenceSync");
+  load(api.ClientWaitSync, "glClientWaitSync");
+  load(api.DeleteSync, "glDeleteSync");
+  find(api.BufferStorage, egl.GetProcAddress("glBufferStorage"));
   return api;
 }
 

@@ -44,7 +44,10 @@ struct Api {
                         kDynamicCopy = 0x88EA;
   static constexpr Enum kFloatWords = 0x822E, kRed = 0x1903, kFloat = 0x1406;
   static constexpr Enum kMaxStorageBlock = 0x90DE, kMaxStorageBlocks = 0x90DB;
-  static constexpr unsigned kMapRead = 1, kMapWrite = 2, kMapInvalidate = 4;
+  static constexpr unsigned kMapRead = 1, kMapWrite = 2, kMapInvalidate = 4, kMapPersistent = 0x40,
+                            kMapCoherent = 0x80;
+  static constexpr Enum kGpuDone = 0x9117, kTimeoutExpired = 0x911B;
+  static constexpr unsigned kFlushCommands = 1;
   static constexpr unsigned kAllBarriers = 0xFFFFFFFF;
   static constexpr Enum kDebugOutput = 0x92E0, kDebugSynchronous = 0x8242, kDebugError = 0x824C;
   static constexpr Enum kDedicatedMemoryNvidia = 0x9047, kFreeMemoryAti = 0x87FC;  // [KiB]
@@ -91,6 +94,11 @@ struct Api {
   void (*DispatchCompute)(unsigned x, unsigned y, unsigned z);
   void (*MemoryBarrier)(unsigned bits);
   void (*Finish)();
+  Handle (*FenceSync)(Enum condition, unsigned flags);
+  Enum (*ClientWaitSync)(Handle fence, unsigned flags, std::uint64_t timeout);
+  void (*DeleteSync)(Handle fence);
+  // Of OpenGL 4.4; null where it is missing.
+  void (*BufferStorage)(Enum target, std::ptrdiff_t size, const void* data, unsigned flags);
 };
 
 /// Opens libEGL, which stays open. Throws std::runtime_error with the remedy where there is none.

@@ -129,6 +129,16 @@ void Context::run(FunctionRef<void(Queue&)> task) {
   if (job.error != nullptr) std::rethrow_exception(job.error);
 }
 
+std::optional<StagingSlot> Context::staging_slot(std::size_t bytes) {
+  if (!queue_->staging().possible()) return std::nullopt;
+  const std::size_t whole = (bytes + kAligned - 1) / kAligned * kAligned;
+  std::optional<StagingSlot> slot = queue_->staging().take(whole);
+  if (!slot) run([&](Queue& queue) { slot = queue.staging().make(whole); });
+  return slot;
+}
+
+std::size_t Context::max_bytes() const { return queue_->max_bytes(); }
+
 void Context::serve(const Egl& egl, Candidate candidate) {
   const auto opened = [&](std::exception_ptr failure) {
     const std::scoped_lock lock(mutex_);
@@ -142,6 +152,7 @@ void Context::serve(const Egl& egl, Candidate candidate) {
     device_ = device_of(egl, api, candidate, device_.number);
     const std::string driver = device_.vendor + '\n' + device_.renderer + '\n' + device_.driver;
     Queue queue(api, device_, ProgramCache(ProgramCache::user_folder(), driver), kDebug != 0);
+    queue_ = &queue;
     opened(nullptr);
     serve_jobs(queue);
   } catch (...) {

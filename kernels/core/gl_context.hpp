@@ -5,11 +5,13 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "glint/kernels/core/egl_devices.hpp"
 #include "glint/kernels/core/function_ref.hpp"
 #include "glint/kernels/core/gl_api.hpp"
+#include "glint/kernels/core/gl_staging.hpp"
 
 namespace glint::gl {
 
@@ -35,6 +37,11 @@ class Context {
   /// Runs task(queue) on the context's thread, after those that came before, and waits for it. What
   /// it throws comes out here.
   void run(FunctionRef<void(Queue&)> task);
+  /// A slot of at least this size for the calling thread to fill; nothing if the driver has none.
+  /// Waits for the context's thread only if none is free.
+  std::optional<StagingSlot> staging_slot(std::size_t bytes);
+  /// Largest buffer that a pass sees.
+  std::size_t max_bytes() const;
 
  private:
   struct Job {
@@ -50,6 +57,7 @@ class Context {
   std::condition_variable changed_;
   std::deque<Job*> jobs_;
   bool ready_ = false, closing_ = false;
+  Queue* queue_ = nullptr;      ///< the thread's, from ready_ on
   std::exception_ptr failure_;  ///< of opening
   std::thread thread_;
 };

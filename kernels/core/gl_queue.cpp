@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <chrono>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -14,10 +13,7 @@ namespace {
 
 constexpr std::size_t kGroup = 64;         // GLINT_GROUP of prelude.glsl
 constexpr std::size_t kMaxGroups = 65535;  // that every device takes along an axis
-constexpr std::size_t kAligned = 256;      // [bytes] where a pass may begin to see any buffer
 constexpr std::int32_t kMostBlocks = 10;   // that a pass uses: parameters and buffers
-
-constexpr const char* kSmaller = "take smaller frames, fewer particles or --device tbb";
 
 /// Capacity of a buffer: an eighth of its size is wasted at most, so that the pool's fit again.
 std::size_t rounded(std::size_t bytes) {
@@ -25,27 +21,19 @@ std::size_t rounded(std::size_t bytes) {
   return (std::max<std::size_t>(bytes, 1) + step - 1) / step * step;
 }
 
+}  // namespace
+
 std::string size_text(std::size_t bytes) {
   constexpr std::size_t kMega = std::size_t{1} << 20;
   return bytes < kMega ? std::to_string(bytes) + " bytes" : std::to_string(bytes / kMega) + " MB";
 }
-
-/// Makes the host's bytes what no value should be: as floats they are NaN.
-void spoil(const Region& region) {
-  auto* row = const_cast<std::byte*>(region.data);
-  for (std::size_t y = 0; y < region.rows; ++y, row += region.pitch) {
-    std::memset(row, 0xFF, region.row_bytes);
-  }
-}
-
-}  // namespace
 
 Buffer::~Buffer() {
   if (queue_ != nullptr) queue_->pool_.push_back(place_);
 }
 
 Queue::Queue(const Api& api, const EglDevice& device, ProgramCache cache, bool debug)
-    : api_(api), device_(device), programs_(api, device, std::move(cache)) {
+    : api_(api), device_(device), staging_(api), programs_(api, device, std::move(cache)) {
   std::int64_t most = 0;
   api_.GetInteger64v(Api::kMaxStorageBlock, &most);
   constexpr std::int64_t kLargest = std::numeric_limits<std::int32_t>::max();
@@ -73,7 +61,7 @@ void Queue::check(const std::string& doing) {
   const Enum error = api_.GetError();
   const std::string message = std::exchange(debug_error_, {});
   if (error == Api::kOutOfMemory) {
-    fail("out of memory " + doing + "; " + kSmaller);
+    fail("out of memory " + doing + "; " + kSmallerRemedy);
   }
   if (error == Api::kContextLost) {
     fail("the driver lost the context " + doing + "; run again, or use --device tbb");
@@ -85,7 +73,7 @@ void Queue::check(const std::string& doing) {
 }
 
 void Queue::limit(std::size_t bytes) {
-  max_bytes_ = std::min(max_bytes_, std::max(bytes / kAligned * kAligned, kAligned));
+  max_bytes_ = std::min(max_bytes_.load(), std::max(bytes / kAligned * kAligned, kAligned));
 }
 
 Buffer Queue::take(std::size_t bytes) {
@@ -111,7 +99,7 @@ Buffer Queue::allocate(std::size_t bytes) {
   drop_pool();
   if (reserve(id, capacity)) return made();
   api_.DeleteBuffers(1, &id);
-  fail("no memory for a buffer of " + size_text(capacity) + "; " + kSmaller);
+  fail("no memory for a buffer of " + size_text(capacity) + "; " + kSmallerRemedy);
 }
 
 bool Queue::reserve(unsigned id, std::size_t capacity) {
@@ -136,131 +124,6 @@ void Queue::timed(double& seconds, FunctionRef<void()> work) {
   seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void Queue::write_host(Place to, const Region& region) {
-  const std::size_t bytes = region.bytes();
-  if (bytes == 0) return;
-  traffic_.uploaded += bytes;
-  timed(traffic_.upload, [&] {
-    api_.BindBuffer(Api::kCopyBuffer, to.id);
-    void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(to.offset),
-                                   static_cast<std::ptrdiff_t>(bytes),
-                                   Api::kMapWrite | Api::kMapInvalidate);
-    check("while sending " + size_text(bytes));
-    if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
-    const std::byte* row = region.data;
-    for (std::size_t y = 0; y < region.rows; ++y, row += region.pitch) {
-      std::memcpy(static_cast<std::byte*>(at) + y * region.row_bytes, row, region.row_bytes);
-    }
-    api_.UnmapBuffer(Api::kCopyBuffer);
-  });
-}
-
-void Queue::read_host(Place from, const Region& region) {
-  const std::size_t bytes = region.bytes();
-  if (bytes == 0) return;
-  traffic_.read += bytes;
-  timed(traffic_.read_back, [&] {
-    api_.MemoryBarrier(Api::kAllBarriers);
-    api_.BindBuffer(Api::kCopyBuffer, from.id);
-    const void* at = api_.MapBufferRange(Api::kCopyBuffer, static_cast<std::ptrdiff_t>(from.offset),
-                                         static_cast<std::ptrdiff_t>(bytes), Api::kMapRead);
-    check("while reading " + size_text(bytes));
-    if (at == nullptr) fail(std::string("the driver gives no access to its memory; ") + kSmaller);
-    auto* row = const_cast<std::byte*>(region.data);
-    for (std::size_t y = 0; y < region.rows; ++y, row += region.pitch) {
-      std::memcpy(row, static_cast<const std::byte*>(at) + y * region.row_bytes, region.row_bytes);
-    }
-    api_.UnmapBuffer(Api::kCopyBuffer);
-  });
-}
-
-void Queue::copy(Place from, Place to, std::size_t bytes) {
-  timed(traffic_.compute, [&] {
-    api_.BindBuffer(Api::kCopySource, from.id);
-    api_.BindBuffer(Api::kCopyBuffer, to.id);
-    api_.CopyBufferSubData(
-        Api::kCopySource, Api::kCopyBuffer, static_cast<std::ptrdiff_t>(from.offset),
-        static_cast<std::ptrdiff_t>(to.offset), static_cast<std::ptrdiff_t>(bytes));
-    api_.MemoryBarrier(Api::kAllBarriers);
-  });
-  check("while copying " + size_text(bytes));
-}
-
-std::optional<Buffer> Queue::borrow(const Region& region) {
-  const std::optional<Place> place = residents_.find(region);
-  if (!place || place->offset % kAligned != 0 || region.bytes() > max_bytes_) return std::nullopt;
-  return Buffer(nullptr, *place, region.bytes());
-}
-
-Buffer Queue::upload(const Region& region) {
-  if (std::optional<Buffer> kept = borrow(region)) return std::move(*kept);
-  Buffer to = take(region.bytes());
-  write(to, region, 0);
-  return to;
-}
-
-Buffer Queue::output(const Region& region) {
-  if (std::optional<Buffer> kept = borrow(region)) return std::move(*kept);
-  return take(region.bytes());
-}
-
-void Queue::write(const Buffer& to, const Region& region, std::size_t offset) {
-  Place at = to.place_;
-  at.offset += offset;
-  if (const std::optional<Place> kept = residents_.find(region)) {
-    return copy(*kept, at, region.bytes());
-  }
-  write_host(at, region);
-}
-
-void Queue::read(const Buffer& from, const Region& region, std::size_t offset) {
-  Place at = from.place_;
-  at.offset += offset;
-  const std::optional<Place> kept = residents_.find(region);
-  if (!kept) return read_host(at, region);
-  if (keeping_ == Keeping::spoiling) spoil(region);
-  if (kept->id != at.id || kept->offset != at.offset) copy(at, *kept, region.bytes());
-}
-
-void Queue::fill(std::span<float> values, float value) {
-  const Region region = region_of(values);
-  const std::optional<Place> kept = residents_.find(region);
-  if (!kept) {
-    std::ranges::fill(values, value);
-    return;
-  }
-  timed(traffic_.compute, [&] {
-    api_.BindBuffer(Api::kCopyBuffer, kept->id);
-    api_.ClearBufferSubData(
-        Api::kCopyBuffer, Api::kFloatWords, static_cast<std::ptrdiff_t>(kept->offset),
-        static_cast<std::ptrdiff_t>(region.bytes()), Api::kRed, Api::kFloat, &value);
-    api_.MemoryBarrier(Api::kAllBarriers);
-  });
-  check("while filling " + size_text(region.bytes()));
-  if (keeping_ == Keeping::spoiling) spoil(region);
-}
-
-void Queue::keep(const Region& region) {
-  if (keeping_ == Keeping::never || region.bytes() == 0) return;
-  Buffer home = allocate(region.bytes());
-  residents_.add(region, home.place_.id, home.place_.capacity);
-  home.queue_ = nullptr;
-}
-
-void Queue::drop(const std::byte* region) {
-  if (const auto place = residents_.remove(region)) pool_.push_back(*place);
-}
-
-void Queue::send(const Region& region) {
-  const std::optional<Place> kept = residents_.find(region);
-  if (!kept) return;
-  write_host(*kept, region);
-}
-
-void Queue::fetch(const Region& region) {
-  if (const std::optional<Place> kept = residents_.find(region)) read_host(*kept, region);
-}
-
 double Queue::copy_seconds(std::size_t bytes, int times) {
   const Buffer from = take(bytes), to = take(bytes);
   double least = std::numeric_limits<double>::infinity();
@@ -273,15 +136,6 @@ double Queue::copy_seconds(std::size_t bytes, int times) {
     least = std::min(least, taken.count());
   }
   return least;
-}
-
-std::uint32_t Queue::sum_before(const Buffer& counts, std::size_t count) {
-  scratch_.resize(count);
-  read(counts, std::span(scratch_));
-  std::uint32_t sum = 0;
-  for (std::uint32_t& value : scratch_) sum += std::exchange(value, sum);
-  write(counts, std::span(scratch_));
-  return sum;
 }
 
 void Queue::bind(unsigned binding, const Buffer& buffer) {

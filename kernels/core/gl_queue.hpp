@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -20,6 +21,7 @@
 #include "glint/kernels/core/gl_api.hpp"
 #include "glint/kernels/core/gl_programs.hpp"
 #include "glint/kernels/core/gl_residents.hpp"
+#include "glint/kernels/core/gl_staging.hpp"
 
 namespace glint::gl {
 
@@ -69,7 +71,7 @@ class Queue {
   Queue(const Queue&) = delete;
   Queue& operator=(const Queue&) = delete;
 
-  /// Most bytes that a pass sees of one buffer: larger problems are to be cut.
+  /// Most bytes that a pass sees of one buffer: larger problems are to be cut. From any thread.
   std::size_t max_bytes() const { return max_bytes_; }
   /// Makes the limit smaller than the driver's.
   void limit(std::size_t bytes);
@@ -126,6 +128,10 @@ class Queue {
 
   /// See Device::keep(): from now on the region lives on the device, uninitialised.
   void keep(const Region& region);
+  /// See Device::stage(): the region, whose bytes `slot` holds, lives there until drop(). False,
+  /// and the slot is given back, if it lives somewhere already. `seconds` is what filling took.
+  bool keep_staged(const Region& region, const StagingSlot& slot, double seconds);
+  Staging& staging() { return staging_; }
   void drop(const std::byte* region);
   /// From the host to the device and back, of regions that are kept; others stay as they are.
   void send(const Region& region);
@@ -137,9 +143,6 @@ class Queue {
   /// write, so that nothing can rest on them.
   enum class Keeping { plain, never, spoiling };
   void set_keeping(Keeping keeping) { keeping_ = keeping; }
-
-  /// Turns `count` counts into the sums of those before them; returns the sum of all.
-  std::uint32_t sum_before(const Buffer& counts, std::size_t count);
 
   /// Runs `pass` of a shader for items 0 .. `items` - 1: item() of prelude.glsl. Parameters, a
   /// plain struct of 4-byte members, are at binding 0, the buffers from 1 on.
@@ -179,16 +182,25 @@ class Queue {
 
   const Api& api_;
   const EglDevice& device_;
-  std::size_t max_bytes_ = std::numeric_limits<std::size_t>::max();
+  std::atomic<std::size_t> max_bytes_ = std::numeric_limits<std::size_t>::max();
   bool timed_ = false;
   DeviceTraffic traffic_;
   std::vector<Place> pool_;
   Residents residents_;
+  Staging staging_;
+  std::vector<StagingSlot> staged_;  ///< that regions live in
   Keeping keeping_ = Keeping::plain;
-  std::vector<std::uint32_t> scratch_;
   Programs programs_;
   std::string debug_error_;  ///< first message of the driver since the last check
 };
+
+/// Where a pass may begin to see any buffer [bytes].
+inline constexpr std::size_t kAligned = 256;
+/// What may help where a device is out of memory.
+inline constexpr const char* kSmallerRemedy =
+    "take smaller frames, fewer particles or --device tbb";
+/// "3 MB".
+std::string size_text(std::size_t bytes);
 
 /// Calls f(band) for bands that cover a frame from top to bottom, as high as fits where a row takes
 /// `row_bytes` and needs `margin` rows above and below it.

@@ -32,16 +32,15 @@ std::optional<std::size_t> offset_in(const Region& whole, const Region& part) {
 
 }  // namespace
 
-void Residents::add(const Region& kept, unsigned id, std::size_t capacity) {
+bool Residents::add(const Region& kept, Home home, unsigned id, std::size_t capacity) {
   const Region region = kept.flat();
   const auto next = residents_.lower_bound(region.data);
-  const bool crosses_next = next != residents_.end() && before(next->first, end_of(region));
-  const bool crosses_last =
-      next != residents_.begin() && before(region.data, end_of(std::prev(next)->second.region));
-  if (crosses_next || crosses_last) {
-    throw std::logic_error("this memory is kept on the device already");
+  if (next != residents_.end() && before(next->first, end_of(region))) return false;
+  if (next != residents_.begin() && before(region.data, end_of(std::prev(next)->second.region))) {
+    return false;
   }
-  residents_.emplace(region.data, Resident{region, id, capacity});
+  residents_.emplace(region.data, Resident{region, home, id, capacity});
+  return true;
 }
 
 std::optional<Place> Residents::remove(const std::byte* data) {
@@ -59,7 +58,10 @@ std::optional<Place> Residents::find(const Region& wanted) const {
   const Resident& resident = std::prev(next)->second;
   if (!before(region.data, end_of(resident.region))) return std::nullopt;
   const auto offset = offset_in(resident.region, region);
-  if (!offset) throw std::logic_error("memory kept on the device is used in another shape");
+  if (!offset) {
+    if (resident.home == Home::copy) return std::nullopt;
+    throw std::logic_error("memory kept on the device is used in another shape");
+  }
   return Place{resident.id, *offset, resident.capacity};
 }
 

@@ -17,17 +17,20 @@ struct Place {
 /// Regions of the host's memory that live on the device, by address.
 class Residents {
  public:
-  /// Throws std::logic_error if part of the region lives there already.
-  void add(const Region& kept, unsigned id, std::size_t capacity);
+  /// Whether the device is the only place of a region's bytes, or has a copy of them.
+  enum class Home { only, copy };
+  /// False, and nothing is added, if part of the region lives there already.
+  bool add(const Region& kept, Home home, unsigned id, std::size_t capacity);
   /// The buffer of the region that begins there, which lives there no more; nothing if none does.
   std::optional<Place> remove(const std::byte* data);
-  /// Nothing if the region lies elsewhere or is empty. Throws std::logic_error if it crosses a
-  /// resident's edge or takes other rows of it.
+  /// Nothing if the region lies elsewhere or is empty. Throws std::logic_error if it crosses the
+  /// edge of a resident that has its only home there, or takes other rows of it.
   std::optional<Place> find(const Region& wanted) const;
 
  private:
   struct Resident {
     Region region;
+    Home home;
     unsigned id;
     std::size_t capacity;
   };

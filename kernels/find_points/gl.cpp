@@ -3,6 +3,7 @@
 
 #include "glint/kernels/core/gl_context.hpp"
 #include "glint/kernels/core/gl_queue.hpp"
+#include "glint/kernels/core/gl_scan.hpp"
 #include "glint/kernels/core/inline.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
 #include "glint_shaders/find_points.hpp"
@@ -28,7 +29,7 @@ void append_points(gl::Queue& queue, const FindPoints::Args& args, const PointBa
   const std::size_t spans = (items_of(band) + kSpan - 1) / kSpan;
   const gl::Buffer counts = queue.buffer<uint>(spans);
   queue.run(kShader, "count_points", spans, band, {&map, &counts});
-  const std::size_t total = queue.sum_before(counts, spans), before = args.points->size();
+  const std::size_t total = gl::sum_before(queue, counts, spans), before = args.points->size();
   const gl::Buffer list = queue.buffer<Point>(total);
   queue.run(kShader, "collect_points", spans, band, {&map, &counts, &list});
   args.points->resize(before + total);

@@ -3,6 +3,7 @@
 
 #include "glint/kernels/core/gl_context.hpp"
 #include "glint/kernels/core/gl_queue.hpp"
+#include "glint/kernels/core/gl_scan.hpp"
 #include "glint/kernels/core/inline.hpp"
 #include "glint/kernels/pixel_likelihood/check.hpp"
 #include "glint_shaders/pixel_likelihood.hpp"
@@ -40,7 +41,7 @@ void append_hits(gl::Queue& queue, const PixelBand& band, std::size_t pixels, co
   const std::size_t spans = (pixels + kSpan - 1) / kSpan;
   const gl::Buffer counts = queue.buffer<std::uint32_t>(spans);
   queue.run(kShader, "count_hits", spans, band, {&map, &map, &map, &counts});
-  const std::size_t total = queue.sum_before(counts, spans), before = hits.size();
+  const std::size_t total = gl::sum_before(queue, counts, spans), before = hits.size();
   const gl::Buffer list = queue.buffer<Hit>(total);
   queue.run(kShader, "collect_hits", spans, band, {&map, &map, &map, &counts, &list});
   hits.resize(before + total);

@@ -119,6 +119,19 @@ class DeviceDrawing {
 
 }  // namespace
 
+WholeCall Resample::whole(const Args& args) {
+  WholeCall call{sizeof(uint) * std::max(args.weights.size(), args.ancestors.size()),
+                 {region_of(args.weights)},
+                 {region_of(args.ancestors)}};
+  for (const MovedArray& array : args.moved) {
+    call.read.push_back(
+        region_of(std::span(static_cast<const uint*>(array.source), args.weights.size())));
+    call.written.push_back(
+        region_of(std::span(static_cast<uint*>(array.destination), args.ancestors.size())));
+  }
+  return call;
+}
+
 void Resample::egl(const Args& args, gl::Context& context) {
   resample::check(args);
   if (args.ancestors.empty()) return;

@@ -56,6 +56,7 @@ struct Resample {
   static void serial(const Args& args);
   static void tbb(const Args& args, Workers& workers);
   static void egl(const Args& args, gl::Context& context);
+  static WholeCall whole(const Args& args);
   static std::vector<std::unique_ptr<Trial>> trials();
 };
 

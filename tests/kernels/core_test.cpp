@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -71,6 +72,28 @@ TEST(Frame, SharesOneImage) {
   EXPECT_EQ(copy.height(), 3);
   EXPECT_FALSE(Frame());
   EXPECT_TRUE(Frame().view().empty());
+}
+
+TEST(Frame, FetchesItsPixelsOnceAndOnlyForThoseWhoLook) {
+  int fetched = 0;
+  const Frame frame(std::make_shared<const Image<float>>(4, 3), [&] { ++fetched; });
+  const Frame other = frame;
+  EXPECT_EQ(frame.for_kernels().width, 4);
+  EXPECT_EQ(frame.width(), 4);
+  EXPECT_EQ(fetched, 0);
+  EXPECT_EQ(frame.view().data, frame.for_kernels().data);
+  EXPECT_EQ(other.view().height, 3);
+  EXPECT_EQ(fetched, 1);
+}
+
+TEST(Frame, TriesAgainAfterAFetchThatFailed) {
+  bool works = false;
+  const Frame frame(std::make_shared<const Image<float>>(4, 3), [&] {
+    if (!works) throw std::runtime_error("the device is gone");
+  });
+  EXPECT_THROW(frame.view(), std::runtime_error);
+  works = true;
+  EXPECT_EQ(frame.view().width, 4);
 }
 
 TEST(Box, ContainsItsLowerEdgesOnly) {

@@ -16,6 +16,7 @@
 #include "glint/kernels/core/gl_residents.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
+#include "glint/kernels/prepare_frame/prepare_frame.hpp"
 
 namespace glint {
 namespace {
@@ -127,12 +128,82 @@ TEST(EglKeptMemory, MayNotBeKeptTwiceOrUsedInAnotherShape) {
   EXPECT_NO_THROW(device.fetch(rows));
 }
 
+/// A raw frame of 8 bits and what it becomes.
+struct RawFrame {
+  std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(std::size_t{64} * 48);
+  Image<float> grey{64, 48};
+
+  std::span<std::uint8_t> all() { return bytes; }
+  float converted(const Device& device) {
+    const RawPixels raw{bytes.data(), 64, 48, 1, 64};
+    device.run<ToGrey>({.raw = raw, .grey = grey.view()});
+    return grey.view()(5, 7);
+  }
+};
+
+TEST(EglStaging, SendsAFrameOnceForAllThatLookAtIt) {
+  GLINT_NEEDS_EGL(unused);
+  const Device device = spoiling();
+  RawFrame frame;
+  frame.bytes[7 * 64 + 5] = 99;
+  time_traffic(device, true);
+  {
+    const Kept sent = device.stage(frame.all());
+    EXPECT_EQ(frame.converted(device), 99);
+    EXPECT_EQ(frame.converted(device), 99);
+    EXPECT_EQ(frame.bytes[7 * 64 + 5], 99) << "the host's bytes stay good";
+  }
+  const std::size_t sent = traffic_of(device).uploaded;
+  EXPECT_GE(sent, frame.bytes.size());
+  EXPECT_LT(sent, frame.bytes.size() * 3 / 2);
+}
+
+TEST(EglStaging, SendsWhatTheMemoryHoldsEachTimeAnew) {
+  GLINT_NEEDS_EGL(unused);
+  const Device device = Device::egl();
+  RawFrame frame;
+  for (int i = 0; i < 10; ++i) {  // more than there are slots
+    std::ranges::fill(frame.bytes, static_cast<std::uint8_t>(i));
+    const Kept sent = device.stage(frame.all());
+    EXPECT_EQ(frame.converted(device), static_cast<float>(i));
+  }
+  std::ranges::fill(frame.bytes, std::uint8_t{77});
+  EXPECT_EQ(frame.converted(device), 77) << "nothing is left of what was sent ahead";
+}
+
+TEST(EglStaging, LetsTwoSendTheSameMemory) {
+  GLINT_NEEDS_EGL(unused);
+  const Device device = Device::egl();
+  RawFrame frame;
+  frame.bytes[7 * 64 + 5] = 12;
+  Kept one = device.stage(frame.all());
+  const Kept other = device.stage(frame.all());
+  EXPECT_EQ(frame.converted(device), 12);
+  one = {};
+  EXPECT_EQ(frame.converted(device), 12);
+}
+
+TEST(EglStaging, LetsOthersSendPartsOfTheSameMemory) {
+  GLINT_NEEDS_EGL(unused);
+  const Device device = Device::egl();
+  RawFrame frame;
+  frame.bytes[20 * 64 + 30] = 5;
+  const Kept all = device.stage(frame.all());
+  const ImageView<std::uint8_t> crop{&frame.bytes[20 * 64 + 30], 16, 8, 64};
+  const Kept part = device.stage(crop);
+  Image<float> grey(16, 8);
+  device.run<ToGrey>({.raw = {crop.data, 16, 8, 1, 64}, .grey = grey.view()});
+  EXPECT_EQ(grey.view()(0, 0), 5);
+}
+
 TEST(Residents, FindRowsAndPartsOfArraysByAddress) {
   std::vector<float> array(100);
   Image<float> image(20, 10);
   gl::Residents residents;
-  residents.add(region_of(std::span(array)), 1, 400);
-  residents.add(region_of(image.view()), 2, 800);
+  EXPECT_TRUE(residents.add(region_of(std::span(array)), gl::Residents::Home::only, 1, 400));
+  EXPECT_TRUE(residents.add(region_of(image.view()), gl::Residents::Home::only, 2, 800));
+  EXPECT_FALSE(
+      residents.add(region_of(std::span(array).subspan(5)), gl::Residents::Home::copy, 3, 9));
   const auto in_array = residents.find(region_of(std::span(array).subspan(25, 10)));
   ASSERT_TRUE(in_array);
   EXPECT_EQ(in_array->id, 1U);
