@@ -17,8 +17,6 @@ class SpatialBackground : public Background {
     return true;
   }
   void learn(const BackgroundInput&) override {}
-  void save(ByteWriter&) const override {}
-  void restore(ByteReader&, int, int) override {}
   std::string description() const override {
     return "background: spatial median of " + std::to_string(4 * spacing_ + 1) + " px";
   }
@@ -42,8 +40,6 @@ class NoBackground : public Background {
   }
   void learn(const BackgroundInput&) override {}
   void rewrite() override { first_ = true; }
-  void save(ByteWriter&) const override {}
-  void restore(ByteReader&, int, int) override {}
   std::string description() const override { return "background: none"; }
 
  private:

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <tuple>
 
 namespace glint {
 
@@ -38,11 +37,6 @@ class TargetAmplitude {
     if (model == AmplitudeModel::none) return 0;
     const double a = std::max(amplitude, threshold);
     return model == AmplitudeModel::rayleigh ? rayleigh(a, threshold) : gaussian(a, threshold);
-  }
-
-  template <class Self>
-  static auto fields(Self& s) {
-    return std::tie(s.mean_);
   }
 
  private:

@@ -2,7 +2,6 @@
 #pragma once
 #include <memory>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "glint/engine/config.hpp"
@@ -40,7 +39,7 @@ struct SmcPhdImprovedConfig : SmcPhdConfig {
 /// SMC-PHD track-before-detect, the standard tracker of P-PHD section 3.1 and the improved one of
 /// 3.2, with the corrections that make them work (docs/trackers/smc-phd.md), and identities that
 /// persist.
-class SmcPhd : public TrackerOf<SmcPhd> {
+class SmcPhd : public Tracker {
  public:
   /// Throws ConfigError for settings that do not fit together.
   SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t seed);
@@ -51,11 +50,6 @@ class SmcPhd : public TrackerOf<SmcPhd> {
   /// Expected number of targets after the last step. P-PHD (19)
   double expected_targets() const { return cloud_.expected(); }
   std::size_t particle_count() const { return cloud_.size(); }
-
-  template <class Self>
-  static auto fields(Self& s) {
-    return std::tie(s.appearance_, s.cloud_, s.identities_, s.noise_, s.clock_);
-  }
 
  private:
   void report(const Scan& scan, const StepTime& at, TrackLog& log);
