@@ -74,10 +74,7 @@ std::span<const std::uint32_t> SearchCloud::labels() {
   return label;
 }
 
-void SearchCloud::send_labels() {
-  device_.send(std::span(particles_.arrays().label));
-  fetched_ = false;
-}
+void SearchCloud::send_labels() { device_.send(std::span(particles_.arrays().label)); }
 
 void SearchCloud::predict(const Frame& z, std::int64_t frame, double step, const PixelMask& mask,
                           std::span<const float> noise_scale) {
@@ -152,8 +149,7 @@ void SearchCloud::turn_to_odds() {
 }
 
 void SearchCloud::remove(std::span<const std::uint32_t> members) {
-  auto& weight = particles_.arrays().weight;
-  device_.fetch(std::span(weight));
+  auto& weight = particles().weight;
   likelihood_.fetch();
   for (const std::uint32_t i : members) {
     expected_ -= weight[i];
@@ -163,7 +159,6 @@ void SearchCloud::remove(std::span<const std::uint32_t> members) {
   device_.send(std::span(weight));
   likelihood_.send();
   expected_ = std::max(0.0, expected_);
-  fetched_ = false;
 }
 
 void SearchCloud::resample(std::int64_t frame) {
