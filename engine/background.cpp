@@ -17,6 +17,8 @@ class SpatialBackground : public Background {
     return true;
   }
   void learn(const BackgroundInput&) override {}
+  void save(ByteWriter&) const override {}
+  void restore(ByteReader&, int, int) override {}
   std::string description() const override {
     return "background: spatial median of " + std::to_string(4 * spacing_ + 1) + " px";
   }
@@ -40,6 +42,8 @@ class NoBackground : public Background {
   }
   void learn(const BackgroundInput&) override {}
   void rewrite() override { first_ = true; }
+  void save(ByteWriter&) const override {}
+  void restore(ByteReader&, int, int) override {}
   std::string description() const override { return "background: none"; }
 
  private:

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/frame_preparer.hpp"
 
 namespace glint {
@@ -28,6 +29,10 @@ class Background {
   /// Makes the next estimate() write the background even if it has not changed.
   virtual void rewrite() {}
   virtual std::string description() const = 0;
+  /// What later backgrounds depend on, and back, for frames of this size, in a model of the same
+  /// config; rewrite() follows. restore() throws BytesError.
+  virtual void save(ByteWriter& to) const = 0;
+  virtual void restore(ByteReader& from, int width, int height) = 0;
 };
 
 std::unique_ptr<Background> make_background(const FramesConfig& config, const Device& device);

@@ -108,7 +108,8 @@ void Engine::work() {
   });
   attempt([&] { scheduler_.finish(); });  // of what was tracked before a failure as well
   const std::scoped_lock lock(mutex_);
-  error_ = error, ended_ = true;
+  if (!error_) error_ = error;  // a restore() that failed comes first
+  ended_ = true;
   waiting_.clear();
   changed_.notify_all();
 }
@@ -116,7 +117,10 @@ void Engine::work() {
 /// False at the end.
 bool Engine::wait_for_frames() {
   std::unique_lock lock(mutex_);
+  idle_ = true;
+  changed_.notify_all();
   changed_.wait(lock, [&] { return !waiting_.empty() || closed_; });
+  idle_ = false;
   return !waiting_.empty() && !abandoned_;
 }
 
@@ -129,8 +133,11 @@ bool Engine::push(const RawPixels& pixels, double time) {
 
 bool Engine::push(SourceFrame frame) {
   std::unique_lock lock(mutex_);
-  const auto room = [&] { return ended_ || closed_ || waiting_.size() < settings_.queue; };
-  if (settings_.when_full == EngineSettings::WhenFull::wait) changed_.wait(lock, room);
+  const bool waits = settings_.when_full == EngineSettings::WhenFull::wait;
+  changed_.wait(lock, [&] {
+    const bool room = !waits || waiting_.size() < settings_.queue;
+    return ended_ || closed_ || (room && checkpoints_ == 0);
+  });
   rethrow();
   if (closed_) throw std::logic_error("push() after finish(): make another engine");
   bool kept = true;
@@ -154,6 +161,50 @@ std::optional<EngineResult> Engine::poll() {
   EngineResult result = std::move(results_.front());
   results_.pop_front();
   return result;
+}
+
+void Engine::put_back(EngineResult result) {
+  const std::scoped_lock lock(mutex_);
+  results_.push_front(std::move(result));
+}
+
+std::string Engine::checkpoint() {
+  std::unique_lock lock(mutex_);
+  ++checkpoints_;
+  changed_.wait(lock, [&] { return ended_ || (idle_ && waiting_.empty()); });
+  --checkpoints_;
+  changed_.notify_all();  // whoever is woken waits for the lock
+  rethrow();
+  if (closed_) throw std::logic_error("a finished engine has no checkpoint: take it before");
+  ByteWriter to = begin_checkpoint(scheduler_.label("Engine"));
+  scheduler_.put_state(to);
+  put_bytes(to, pushed_), put_bytes(to, dropped_), put_bytes(to, results_);
+  return seal_checkpoint(std::move(to));
+}
+
+void Engine::take_state(ByteReader& from) {
+  scheduler_.take_state(from);
+  take_bytes(from, pushed_), take_bytes(from, dropped_), take_bytes(from, results_);
+  require_bytes(from.left() == 0, "it is too long");
+  require_bytes(dropped_ >= 0 && dropped_ <= pushed_, "the counts of frames do not fit");
+  for (const EngineResult& result : results_) {
+    require_bytes(result.tracks.size() == scheduler_.logs().size(),
+                  "a result is not of these trackers");
+  }
+  settled_ = pushed_;
+}
+
+void Engine::restore(std::string_view checkpoint) {
+  const std::scoped_lock lock(mutex_);
+  if (pushed_ > 0 || closed_) throw std::logic_error("restore() before the first push()");
+  OpenCheckpoint open = open_checkpoint(checkpoint);
+  require_same(open.label, scheduler_.label("Engine"));
+  try {
+    refuse_damaged([&] { take_state(open.state); });
+  } catch (...) {
+    error_ = std::current_exception();
+    throw;
+  }
 }
 
 void Engine::drain() {

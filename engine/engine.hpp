@@ -10,7 +10,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/scheduler.hpp"
@@ -23,6 +26,11 @@ struct EngineResult {
   double time = 0;         ///< [s]
   double latency = 0;      ///< from push() to here [s]
   std::vector<std::vector<TrackPoint>> tracks;  ///< one list a tracker, in their order, by track id
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.frame, s.time, s.latency, s.tracks);
+  }
 };
 
 struct EngineSettings {
@@ -60,11 +68,23 @@ class Engine {
 
   /// The next result, if there is one by now.
   std::optional<EngineResult> poll();
+  /// Makes a polled result the next one again.
+  void put_back(EngineResult result);
   /// Waits until every frame that was pushed is tracked. Throws what ended the engine.
   void drain();
   /// Drains, then lets the trackers say what they still hold; the logs are whole after that.
   /// Throws what ended the engine. A second call does nothing.
   void finish();
+
+  /// Waits until every frame that was pushed is tracked, then gives everything that later frames
+  /// depend on, the logs and the results that wait for poll() included; a push() meanwhile waits.
+  /// Throws std::logic_error after finish(), and what ended the engine.
+  std::string checkpoint();
+  /// Before the first push(): goes on from the checkpoint() of an engine whose trackers, settings
+  /// (Scheduler::set_settings()) and kind of device are the same, as if nothing had come between.
+  /// Throws std::logic_error after a push(), and CheckpointError for bytes that are damaged or do
+  /// not fit; make another engine then: this one may have ended.
+  void restore(std::string_view checkpoint);
 
   /// Tracks and notes; not to be looked into between a push() and the drain() or finish() after it.
   const Scheduler& scheduler() const { return scheduler_; }
@@ -81,6 +101,7 @@ class Engine {
   class Results;
 
   void work();
+  void take_state(ByteReader& from);
   bool wait_for_frames();
   void close();
   void rethrow() const;
@@ -95,6 +116,8 @@ class Engine {
   std::deque<Clock::time_point> at_work_;  // when their frames were pushed
   std::deque<EngineResult> results_;
   std::int64_t pushed_ = 0, dropped_ = 0, settled_ = 0;  // settled_: tracked or dropped
+  int checkpoints_ = 0;                                  // that wait for the frames at work
+  bool idle_ = false;  // nothing touches scheduler_ until a frame waits
   bool closed_ = false, abandoned_ = false, ended_ = false;
   std::exception_ptr error_;
   std::thread thread_;  // the last: it uses all of the above

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
+#include <variant>
 
 #include "glint/engine/background.hpp"
 #include "glint/engine/frame_pool.hpp"
@@ -67,8 +69,9 @@ struct FramePreparer::State {
   Image<std::uint8_t> ignored;
   std::vector<float> workspace;
   std::size_t pixel_type = 0;
+  int width = 0, height = 0;  // of all frames; 0 before the first [px]
   int channels = 0, noise_step = 1;
-  double floor = 0, last_sigma = 0, sum_sigma = 0;
+  double floor = 0, sum_sigma = 0;
   std::int64_t frames = 0;
 
   State(const FramesConfig& c, const Device& d)
@@ -85,7 +88,14 @@ struct FramePreparer::State {
   BackgroundInput input_of(const RawPixels& raw, FrameView grey) const {
     return {raw, grey, raw.channels == 1 && !config.reciprocal};
   }
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.width, s.height, s.pixel_type, s.channels, s.floor, s.sum_sigma, s.frames,
+                    s.ignored);
+  }
+  void restored() const;
   void start(const RawPixels& raw);
+  void make_maps();
   void check_like_first(const RawPixels& raw) const;
   void mask_background();
   void estimate_background(const BackgroundInput& input);
@@ -105,8 +115,9 @@ Kept FramePreparer::State::stage(const RawPixels& raw) const {
 }
 
 FramePreparer::State::Grey FramePreparer::State::take_grey(const RawPixels& raw) {
-  if (background.width() == 0) start(raw);
+  if (width == 0) start(raw);
   check_like_first(raw);
+  if (background.width() == 0) make_maps();
   Grey grey{pool.take(raw.width, raw.height), false};
   device.run<ToGrey>({raw, config.reciprocal, static_cast<float>(config.reciprocal_floor),
                       grey.image->view(), &grey.masked});
@@ -114,24 +125,36 @@ FramePreparer::State::Grey FramePreparer::State::take_grey(const RawPixels& raw)
 }
 
 void FramePreparer::State::start(const RawPixels& raw) {
-  background = KeptImage<float>(raw.width, raw.height, device);
-  structure = KeptImage<float>(raw.width, raw.height, device);
   pixel_type = raw.data.index();
   channels = raw.channels;
+  width = raw.width, height = raw.height;
+}
+
+void FramePreparer::State::make_maps() {
+  background = KeptImage<float>(width, height, device);
+  structure = KeptImage<float>(width, height, device);
   const auto cells = [&](int step) {
-    const int columns = (raw.width + step - 1) / step, rows = (raw.height + step - 1) / step;
+    const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
     return static_cast<double>(columns) * rows;
   };
   while (cells(noise_step) > kNoiseSamples) noise_step += 2;
-  noise = Image<float>((raw.width + noise_step - 1) / noise_step,
-                       (raw.height + noise_step - 1) / noise_step);
+  noise =
+      Image<float>((width + noise_step - 1) / noise_step, (height + noise_step - 1) / noise_step);
+}
+
+void FramePreparer::State::restored() const {
+  require_bytes(pixel_type < std::variant_size_v<decltype(RawPixels::data)>,
+                "there is no such type of pixel");
+  require_bytes(width >= 0 && height >= 0 && (width == 0) == (height == 0),
+                "frames have no such size");
+  require_frame_number(frames);
 }
 
 void FramePreparer::State::check_like_first(const RawPixels& raw) const {
-  if (raw.width != background.width() || raw.height != background.height()) {
+  if (raw.width != width || raw.height != height) {
     throw std::invalid_argument("frame " + std::to_string(frames) + " is " +
                                 size_text(raw.width, raw.height) + " px, but the first was " +
-                                size_text(background.width(), background.height()) +
+                                size_text(width, height) +
                                 " px: all frames of a stream must have one size");
   }
   if (raw.data.index() != pixel_type || raw.channels != channels) {
@@ -245,16 +268,28 @@ Scan FramePreparer::prepare(const RawPixels& raw, std::int64_t frame, double tim
   s.model->learn(input);
   if (masked) s.fill_masked(grey->view());
 
-  s.last_sigma = s.spread(s.noise.view(), {}).median;
-  s.sum_sigma += s.last_sigma;
+  const double noise_sigma = s.spread(s.noise.view(), {}).median;
+  s.sum_sigma += noise_sigma;
   ++s.frames;
   Scan scan;
   scan.frame = frame;
   scan.time = time;
   scan.raw = s.pool.frame(grey);
   scan.whitened = s.pool.frame(whitened);
-  scan.noise_sigma = s.last_sigma;
+  scan.noise_sigma = noise_sigma;
   return scan;
+}
+
+// The present background and its structure are not kept: the model gives them again.
+void FramePreparer::save(ByteWriter& to) const {
+  put_bytes(to, *state_);
+  state_->model->save(to);
+}
+
+void FramePreparer::restore(ByteReader& from) {
+  take_bytes(from, *state_);
+  state_->model->restore(from, state_->width, state_->height);
+  state_->model->rewrite();
 }
 
 std::vector<std::string> FramePreparer::notes() const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/config.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/kernels/core/device.hpp"
@@ -61,6 +62,11 @@ class FramePreparer {
   Scan prepare(const RawPixels& raw, std::int64_t frame, double time);
   /// What was estimated, for the summary ("noise sigma 4.2 grey levels").
   std::vector<std::string> notes() const;
+
+  /// What later frames depend on, the mask included, and back into a preparer of the same config
+  /// and kind of device. restore() throws BytesError.
+  void save(ByteWriter& to) const;
+  void restore(ByteReader& from);
 
  private:
   struct State;

@@ -69,6 +69,21 @@ void RegisteredBackground::learn(const BackgroundInput& input) {
   next_ = (next_ + 1) % slots_;
 }
 
+void RegisteredBackground::restore(ByteReader& from, int width, int height) {
+  take_bytes(from, *this);
+  require_bytes(samples_.size() <= slots_ && next_ < slots_ &&
+                    (samples_.size() == slots_ || next_ == samples_.size()),
+                "the background has no such sample");
+  for (Pyramid& sample : samples_) {
+    const KeptImage<float> finest = std::move(sample.levels.front());
+    require_bytes(finest.width() == width && finest.height() == height && width > 0,
+                  "a sample of the background has another size than the frames");
+    sample.levels.clear();
+    build(finest.view(), sample);
+    moved_.emplace_back(width, height, device_);
+  }
+}
+
 std::string RegisteredBackground::description() const {
   return "background: median of " + std::to_string(samples_.size()) + " registered frames, " +
          std::to_string(shifted_) + " of " + std::to_string(compared_) + " shifts accepted";

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/background.hpp"
@@ -19,12 +20,20 @@ class RegisteredBackground : public Background {
   void learn(const BackgroundInput& input) override;
   bool provisional() const override { return provisional_; }
   std::string description() const override;
+  void save(ByteWriter& to) const override { put_bytes(to, *this); }
+  void restore(ByteReader& from, int width, int height) override;
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.next_, s.now_, s.shifted_, s.compared_, s.samples_);
+  }
 
  private:
   /// A frame and its halves, finest first.
   struct Pyramid {
     std::vector<KeptImage<float>> levels;
     std::vector<FrameView> views;
+    void put_to(ByteWriter& to) const { put_bytes(to, levels.front()); }
+    void take_from(ByteReader& from) { take_bytes(from, levels.emplace_back()); }
   };
   void build(FrameView image, Pyramid& pyramid) const;
   FrameView registered(const Pyramid& sample, KeptImage<float>& moved);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "glint/engine/bytes.hpp"
+
 namespace glint {
 
 bool SampleTimes::due(std::int64_t t) const {
@@ -31,6 +33,14 @@ int SampleTimes::insert(std::int64_t t) {
   }
   samples_.push_back({t, slot});
   return slot;
+}
+
+void SampleTimes::restored() const {
+  require_bytes(size() <= slots_, "the background has too many samples");
+  for (const Sample& sample : samples_) {
+    require_frame_number(sample.time);
+    require_bytes(sample.slot >= 0 && sample.slot < size(), "the background has no such sample");
+  }
 }
 
 std::int64_t SampleTimes::span() const {

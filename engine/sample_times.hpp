@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace glint {
@@ -21,10 +22,20 @@ class SampleTimes {
   /// Frames from the oldest sample to the newest.
   std::int64_t span() const;
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.samples_);
+  }
+  void restored() const;
+
  private:
   struct Sample {
     std::int64_t time;
     int slot;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.time, s.slot);
+    }
   };
   std::size_t worst(std::int64_t t) const;
 

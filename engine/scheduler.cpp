@@ -64,6 +64,7 @@ struct Scheduler::State {
   std::int64_t read_count = 0, next_frame = 0, delivered = 0, kept = 0;
   std::atomic<bool> stopping = false;
   std::exception_ptr error;  // of the earliest frame that failed
+  std::string settings;
 };
 
 Token* Scheduler::State::read(Source& source, const std::stop_token& stop) {
@@ -202,6 +203,55 @@ void Scheduler::finish() {
   if (std::exchange(state_->finished, true)) return;
   state_->finish();
   if (state_->error) std::rethrow_exception(state_->error);
+}
+
+void Scheduler::set_settings(std::string toml) { state_->settings = std::move(toml); }
+
+CheckpointLabel Scheduler::label(std::string maker) const {
+  CheckpointLabel label{std::string(library_version()),
+                        std::move(maker),
+                        std::string(name(state_->device.kind())),
+                        {},
+                        state_->settings,
+                        state_->next_frame};
+  for (const Lane& lane : state_->lanes) label.trackers.push_back(lane.stage.time().stage);
+  return label;
+}
+
+// Scratch memory and clocks are no state, and what is in tokens is gone between two advance().
+void Scheduler::put_state(ByteWriter& to) const {
+  const State& s = *state_;
+  if (s.error) std::rethrow_exception(s.error);
+  if (s.finished) throw std::logic_error("a finished run has no checkpoint: take it before");
+  put_bytes(to, s.next_frame), put_bytes(to, s.delivered);
+  s.preparer.save(to);
+  for (const Lane& lane : s.lanes) lane.tracker->save(to), put_bytes(to, lane.log);
+}
+
+void Scheduler::take_state(ByteReader& from) {
+  State& s = *state_;
+  s.started = s.finished = true;  // if this fails: half a state is no use
+  take_bytes(from, s.next_frame), take_bytes(from, s.delivered);
+  require_frame_number(s.next_frame);
+  s.preparer.restore(from);
+  for (Lane& lane : s.lanes) lane.tracker->restore(from), take_bytes(from, lane.log);
+  s.started = s.finished = false;
+}
+
+std::string Scheduler::checkpoint() const {
+  ByteWriter to = begin_checkpoint(label("Scheduler"));
+  put_state(to);
+  return seal_checkpoint(std::move(to));
+}
+
+void Scheduler::restore(std::string_view checkpoint) {
+  if (state_->started) throw std::logic_error("restore() before the first frame");
+  OpenCheckpoint open = open_checkpoint(checkpoint);
+  require_same(open.label, label("Scheduler"));
+  refuse_damaged([&] {
+    take_state(open.state);
+    require_bytes(open.state.left() == 0, "it is too long");
+  });
 }
 
 const std::vector<const TrackLog*>& Scheduler::logs() const { return state_->logs; }

@@ -6,8 +6,10 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "glint/engine/checkpoint.hpp"
 #include "glint/engine/frame_preparer.hpp"
 #include "glint/engine/points.hpp"
 #include "glint/engine/trackers/tracker.hpp"
@@ -100,7 +102,24 @@ class Scheduler {
   std::int64_t frames() const;  ///< delivered so far, also after an exception
   std::vector<StageTime> stage_times() const;
 
+  /// What results depend on besides the frames, as TOML: a checkpoint goes on only under the same.
+  /// Without it a checkpoint tells no other settings or seed from these.
+  void set_settings(std::string toml);
+  /// Everything that later frames depend on, the logs included, between two advance(), before
+  /// finish(). Throws std::logic_error after it, and what any stage has thrown so far.
+  std::string checkpoint() const;
+  /// Goes on from a checkpoint() of a Scheduler with the same trackers, settings and kind of device
+  /// instead of from the first frame: logs and results become those of a run that never stopped,
+  /// byte by byte, on any number of threads. Throws std::logic_error if frames came in already, and
+  /// CheckpointError for bytes that are damaged or do not fit; make another Scheduler then.
+  void restore(std::string_view checkpoint);
+
  private:
+  friend class Engine;
+  void put_state(ByteWriter& to) const;
+  void take_state(ByteReader& from);
+  CheckpointLabel label(std::string maker) const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

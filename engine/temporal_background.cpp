@@ -42,6 +42,20 @@ void TemporalBackground::learn(const BackgroundInput& input) {
   stale_ = true;
 }
 
+void TemporalBackground::restore(ByteReader& from, int width, int height) {
+  take_bytes(from, *this);
+  const auto check = [&](auto& samples) {
+    require_bytes(samples.images.size() == static_cast<std::size_t>(times_.size()),
+                  "the background lacks a sample");
+    for (auto& image : samples.images) {
+      require_bytes(image.width() == width && image.height() == height && width > 0,
+                    "a sample of the background has another size than the frames");
+      image.keep(device_);
+    }
+  };
+  std::visit(check, samples_);
+}
+
 std::string TemporalBackground::description() const {
   return "background: median of " + std::to_string(times_.size()) + " frames over the last " +
          std::to_string(times_.span() + 1);

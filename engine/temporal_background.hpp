@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -21,12 +22,25 @@ class TemporalBackground : public Background {
   void rewrite() override { stale_ = true; }
   bool provisional() const override { return provisional_; }
   std::string description() const override;
+  void save(ByteWriter& to) const override { put_bytes(to, *this); }
+  void restore(ByteReader& from, int width, int height) override;
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.times_, s.now_, s.samples_);
+  }
 
  private:
   template <class T>
   struct Samples {
     std::vector<KeptImage<T>> images;
     std::vector<ImageView<const T>> views;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.images);
+    }
+    void restored() {
+      for (const KeptImage<T>& image : images) views.push_back(image.view());
+    }
   };
   void start(const BackgroundInput& input);
   template <class T>

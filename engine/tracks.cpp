@@ -109,6 +109,23 @@ void TrackTable::forget(std::int64_t frame) {
   frames_.erase(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
+void TrackTable::put_to(ByteWriter& to) const {
+  std::uint64_t count = 0;
+  each([&](const TrackPoint&) { ++count; });
+  put_bytes(to, forgotten_), put_bytes(to, count);
+  each([&](const TrackPoint& p) { put_bytes(to, p); });
+}
+
+void TrackTable::take_from(ByteReader& from) {
+  *this = {};
+  take_bytes(from, forgotten_);
+  for (std::size_t left = from.count(); left > 0; --left) {
+    TrackPoint point;
+    take_bytes(from, point);
+    put(point);
+  }
+}
+
 void TrackTable::confirm(std::int64_t track_id, std::int64_t frame) {
   for (std::size_t i = lower_bound(frame); i < frames_.size(); ++i) {
     const std::size_t node = find(frames_[i], track_id).node;

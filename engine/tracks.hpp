@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/mode_probability.hpp"
 
 namespace glint {
@@ -25,6 +27,16 @@ struct TrackPoint {
   double intensity = kUnknown, existence = kUnknown;
   double var_x = kUnknown, cov_xy = kUnknown, var_y = kUnknown;  ///< [px^2]
   ModeProbability mode_probability;  ///< in the order of TrackLog::mode_names()
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.frame, s.time, s.track_id, s.status, s.x, s.y, s.vx, s.vy, s.intensity,
+                    s.existence, s.var_x, s.cov_xy, s.var_y, s.mode_probability);
+  }
+  void restored() const {
+    require_bytes(status >= TrackStatus::tentative && status <= TrackStatus::halted,
+                  "a track has no such status");
+  }
 };
 
 /// Track points by frame, then by track id. Points stay where they were put and each frame chains
@@ -52,6 +64,9 @@ class TrackTable {
   void each(F&& f) const {
     for (std::size_t i = 0; i < frames_.size(); ++i) visit(i, f);
   }
+  /// For checkpoints: the points alone, not where they lie.
+  void put_to(ByteWriter& to) const;
+  void take_from(ByteReader& from);
 
  private:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
@@ -123,6 +138,14 @@ class TrackLog {
   void at(std::int64_t frame, std::vector<TrackPoint>& points) const;
   /// Bytes that a run is compared by; equal logs give equal text.
   std::string text() const;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.online_, s.revised_, s.mode_names_);
+  }
+  void restored() const {
+    require_bytes(mode_names_.size() <= ModeProbability::kCapacity, "a log has too many models");
+  }
 
  private:
   TrackTable online_, revised_;

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "glint/engine/bytes.hpp"
+
 namespace glint {
 namespace {
 
@@ -39,6 +41,21 @@ void JointEvents::assign(const JointView& events) {
 void JointGroups::clear() {
   ranges_.clear();
   all_.begin({});
+}
+
+/// Groups follow each other without gaps.
+void JointGroups::restored() const {
+  std::size_t target = 0, choice = 0, event = 0;
+  for (const Range& r : ranges_) {
+    require_bytes(r.first_target == target && r.first_choice == choice && r.first_event == event &&
+                      r.targets > 0 && r.targets <= all_.targets.size() &&
+                      r.events <= all_.weight.size(),
+                  "a group of joint events is not whole");
+    target += r.targets, choice += r.targets * r.events, event += r.events;
+  }
+  require_bytes(
+      target == all_.targets.size() && choice == all_.choice.size() && event == all_.weight.size(),
+      "joint events are not whole");
 }
 
 void JointGroups::add(const JointView& group) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace glint {
@@ -32,6 +33,11 @@ struct JointEvents {
   void begin(std::span<const std::uint32_t> of_targets);
   void add(std::span<const std::uint32_t> hypotheses, double event_weight);
   void assign(const JointView& events);
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.targets, s.choice, s.weight);
+  }
 };
 
 /// The joint events of one group of targets after another, in one piece of memory.
@@ -45,9 +51,19 @@ class JointGroups {
   JointView operator[](std::size_t group) const;
   std::span<std::uint32_t> choice(std::size_t group);
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.ranges_, s.all_);
+  }
+  void restored() const;
+
  private:
   struct Range {
     std::size_t first_target, targets, first_choice, first_event, events;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.first_target, s.targets, s.first_choice, s.first_event, s.events);
+    }
   };
   std::vector<Range> ranges_;
   JointEvents all_;

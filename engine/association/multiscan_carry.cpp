@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "glint/engine/association/multiscan_jpda.hpp"
+#include "glint/engine/bytes.hpp"
 
 namespace glint {
 
@@ -107,6 +108,34 @@ void MultiscanJpda::split(JointEvents& events) {
     JointEvents& own = all ? events : part_;
     keep_best(own, settings_.events, settings_.least, memory_);
     groups_.add(own.view());
+  }
+}
+
+/// Every target is in one group, which names hypotheses that it has.
+void MultiscanJpda::restored() const {
+  require_bytes(children_.size() == prior_.size(), "hypotheses are not whole");
+  for (const Range& own : own_) {
+    require_bytes(
+        own.count > 0 && own.first <= prior_.size() && own.count <= prior_.size() - own.first,
+        "a target has no such hypotheses");
+  }
+  std::size_t grouped = 0;
+  std::vector<bool> seen(targets());
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const JointView group = groups_[g];
+    for (std::size_t c = 0; c < group.targets.size(); ++c, ++grouped) {
+      const std::uint32_t t = group.targets[c];
+      require_bytes(t < targets() && !seen[t] && (c == 0 || group.targets[c - 1] < t),
+                    "a group has no such target");
+      seen[t] = true;
+      for (std::size_t e = 0; e < group.size(); ++e) {
+        require_bytes(group.event(e)[c] < hypotheses(t), "a target has no such hypothesis");
+      }
+    }
+  }
+  require_bytes(grouped == targets(), "a target is in no group");
+  for (const Bond& bond : bonds_) {
+    require_bytes(bond.a < targets() && bond.b < targets(), "a bond has no such target");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/association/joint_events.hpp"
@@ -70,6 +71,10 @@ class MultiscanJpda {
     std::uint32_t merged;  ///< number of the hypothesis before the scan, as merged
     std::uint32_t option;  ///< 0: none, or number of the point + 1
     double probability;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.merged, s.option, s.probability);
+    }
   };
   /// The scan joins the window. `merged`: by target and hypothesis, the number that it has
   /// when hypotheses that differ in scans that leave the window are one; `memory`: scans for
@@ -79,11 +84,21 @@ class MultiscanJpda {
     return std::span(children_).subspan(own_[target].first, own_[target].count);
   }
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.own_, s.prior_, s.children_, s.groups_, s.bonds_);
+  }
+  void restored() const;
+
  private:
   static constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
   struct Bond {
     std::uint32_t a, b;
     int scans;  ///< left
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.a, s.b, s.scans);
+    }
   };
   struct Cluster {
     JointView before;          ///< events of the scans before
@@ -92,6 +107,10 @@ class MultiscanJpda {
   };
   struct Range {
     std::size_t first, count;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.first, s.count);
+    }
   };
   std::span<double> prior(std::size_t target) {
     return std::span(prior_).subspan(own_[target].first, own_[target].count);

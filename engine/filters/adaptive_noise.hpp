@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/filters/peaks.hpp"
@@ -26,10 +27,19 @@ class AdaptiveNoise {
   /// sqrt(Q / Qmin) of each particle by its label; empty if Q is fixed. Valid until the next call.
   std::span<const float> scales(std::span<const std::uint32_t> labels);
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.targets_);
+  }
+
  private:
   struct Target {
     std::uint32_t label;
     double noise, determinant;  // Q / Qmin; of P_k [px^4]
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.label, s.noise, s.determinant);
+    }
   };
   const Target* find(std::uint32_t label) const;
 

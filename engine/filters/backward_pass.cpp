@@ -33,6 +33,14 @@ void BackwardPass::remember(const Frame& z, const StepTime& at,
   }
 }
 
+void BackwardPass::restored() const {
+  const bool full = past_.size() == capacity_;
+  require_bytes(past_.size() <= capacity_ &&
+                    (full ? next_ < std::max<std::size_t>(capacity_, 1) : next_ == past_.size()),
+                "the past has no such frame");
+  for (const Past& past : past_) require_bytes(bool{past.z}, "a frame of the past is missing");
+}
+
 bool BackwardPass::meets_another(const Past& past, const Peak& estimate, std::uint32_t id) const {
   return std::ranges::any_of(past.targets, [&](const Position& other) {
     return other.id != id &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/filters/known_targets.hpp"
@@ -24,15 +25,29 @@ class BackwardPass {
   /// track.
   void trace(const KnownTargets& targets, std::size_t t, std::int64_t now, TrackLog& log);
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.clouds_, s.past_, s.next_);
+  }
+  void restored() const;
+
  private:
   struct Position {
     std::uint32_t id;
     double x, y;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.id, s.x, s.y);
+    }
   };
   struct Past {
     Frame z;
     StepTime at;
     std::vector<Position> targets;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.z, s.at, s.targets);
+    }
   };
   bool meets_another(const Past& past, const Peak& estimate, std::uint32_t id) const;
 

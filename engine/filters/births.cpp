@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/kernels/birth_scores/birth_scores.hpp"
 #include "glint/kernels/core/cells.hpp"
 #include "glint/kernels/core/tiles.hpp"
@@ -56,6 +57,15 @@ void Births::set_appearance(const TargetAppearance& appearance) {
   intensity_low_ = appearance.intensity_low(), intensity_high_ = appearance.intensity_high();
   jitter_ = appearance.jitter();
   for (BirthFrame* frame : {&now_, &before_}) frame->whitened = {}, frame->total = 0;
+}
+
+void BirthFrame::restored() const {
+  const auto pixels =
+      static_cast<std::size_t>(whitened.width()) * static_cast<std::size_t>(whitened.height());
+  require_bytes(score.size() == pixels, "births do not fit their frame");
+  require_bytes(
+      std::ranges::all_of(score.values(), [](float s) { return s >= 0 && std::isfinite(s); }),
+      "a birth score is no such number");
 }
 
 std::uint32_t Births::draw_mode(std::uint32_t word) const {

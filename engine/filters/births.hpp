@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/filters/pixel_mask.hpp"
@@ -48,6 +49,12 @@ struct BirthFrame {
   Frame whitened;
   KeptArray<float> score;  ///< row by row, without padding
   double total = 0;        ///< sum of the scores
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.whitened, s.score, s.total);
+  }
+  void restored() const;
 };
 
 /// Draws new-born particles with their weights; their position is the one at the present frame.
@@ -63,6 +70,13 @@ class Births {
   /// how many were written: fewer only if there is nothing to draw from (no frame before, no cell
   /// above the threshold).
   std::size_t draw(const BirthScan& scan, Particles& particles, std::size_t at);
+
+  // The frame at hand is the one before of the next draw().
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.spread_.sigma, s.intensity_low_, s.intensity_high_, s.jitter_, s.now_);
+  }
+  void restored() { spread_ = PointSpread::of(spread_.sigma); }
 
  private:
   void look_at(const Frame& z, const PixelMask& mask);

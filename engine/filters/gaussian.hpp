@@ -2,10 +2,13 @@
 #pragma once
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <type_traits>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+
+#include "glint/engine/bytes.hpp"
 
 namespace glint {
 
@@ -14,6 +17,14 @@ template <int N>
 struct Gaussian {
   Eigen::Matrix<double, N, 1> mean = Eigen::Matrix<double, N, 1>::Zero();
   Eigen::Matrix<double, N, N> covariance = Eigen::Matrix<double, N, N>::Identity();
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.mean, s.covariance);
+  }
+  void restored() const {
+    require_bytes(mean.allFinite() && covariance.allFinite(), "a belief is no such numbers");
+  }
 };
 
 /// `angle` [rad] in (-pi, pi].

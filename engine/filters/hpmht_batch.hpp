@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/filters/rts_smoother.hpp"
@@ -21,6 +22,12 @@ struct BatchScan {
   CellRule rule;    ///< what its pixels show
   CellTotal total;  ///< of SumCells
   double step = 1;  ///< time since the scan before; for the first, since the priors [frames]
+
+  // But for the view, which is that of a frame that somebody holds.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.rule.threshold, s.rule.subtract, s.total, s.step);
+  }
 };
 
 /// A target at a scan. Velocities are per frame.
@@ -30,6 +37,12 @@ struct BatchState {
   double proportion = 0;          ///< pi, its share of the scan's intensity
   double count = 0;               ///< n, the intensity that it explains
   double mean_x = 0, mean_y = 0;  ///< where that lies: synthetic measurement, P-HPMHT (11) [px]
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.x, s.y, s.vx, s.vy, s.var_x, s.var_y, s.proportion, s.count, s.mean_x,
+                    s.mean_y);
+  }
 };
 
 /// A target over a batch. It exists from scan `first` on, which may be the one after the last;
@@ -41,6 +54,11 @@ struct BatchTarget {
   Eigen::Vector2d origin_x = Eigen::Vector2d::Zero();  ///< smoothed state at the priors' time
   Eigen::Vector2d origin_y = Eigen::Vector2d::Zero();
   std::array<BatchState, kMaxBatch> states;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.first, s.prior_x, s.prior_y, s.noise, s.origin_x, s.origin_y, s.states);
+  }
 };
 
 struct BatchConfig {
@@ -74,6 +92,12 @@ class HPmhtBatch {
   /// likelihood of the cells and log density of the motion, as often as it counts; up to a
   /// constant.
   double objective(std::span<const BatchScan> scans, std::span<const BatchTarget> targets);
+
+  // slide() asks for what the last iteration found.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.mixtures_);
+  }
 
  private:
   void expect(std::span<const BatchScan> scans, std::span<const BatchTarget> targets,

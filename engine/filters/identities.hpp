@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,13 +31,22 @@ class Identities {
               Particles& particles, std::int64_t frame, double time, double step,
               double velocity_scale, std::size_t modes, TrackLog& log);
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.tracks_, s.next_id_);
+  }
+
  private:
   struct Track {
-    std::uint32_t id;
+    std::uint32_t id = 0;
     int hits = 0, misses = 0;
     bool seen = false;
     double x = 0, y = 0, vx = 0,
            vy = 0;  ///< predicted or seen at the present frame; velocity a frame
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.id, s.hits, s.misses, s.seen, s.x, s.y, s.vx, s.vy);
+    }
   };
   Track* claim(const Peak& peak, std::span<const std::uint32_t> members,
                const Particles& particles);

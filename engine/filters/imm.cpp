@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/text.hpp"
 
 namespace glint {
@@ -121,6 +122,24 @@ Gaussian<2 * Axes> ImmOf<Axes>::combined() const {
   Weights weights{};
   std::copy(probability_.begin(), probability_.end(), weights.begin());
   return mixture<Axes>(modes_, weights, Gaussian<2 * Axes>{});
+}
+
+template <int Axes>
+bool ImmOf<Axes>::alike(const ImmOf& other) const {
+  return std::ranges::equal(
+      modes_, other.modes_, {}, [](const auto& mode) { return mode.index(); },
+      [](const auto& mode) { return mode.index(); });
+}
+
+template <int Axes>
+void ImmOf<Axes>::restored() const {
+  const auto count = static_cast<Eigen::Index>(modes_.size());
+  require_bytes(count > 0 && probability_.size() == modes_.size() && switching_.rows() == count &&
+                    switching_.cols() == count,
+                "a bank of motion models is not whole");
+  require_bytes(switching_.allFinite() &&
+                    std::ranges::all_of(probability_, [](double p) { return p >= 0 && p <= 2; }),
+                "a probability is none");
 }
 
 template class ImmOf<2>;

@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -16,6 +17,11 @@ template <class Model, int Axes = 2>
 struct Mode {
   Model model;
   Belief<Model, Axes> belief;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.model, s.belief);
+  }
 };
 
 /// The one list of motion models that a bank may be made of.
@@ -50,6 +56,9 @@ class ImmOf {
  public:
   using Modes = ShortList<ModeOf<Axes>, ModeProbability::kCapacity>;
 
+  /// Of no models: to be restored.
+  ImmOf() = default;
+
   /// `switching`: rows are normalised. `probability`: of each model at the start. Throws
   /// std::invalid_argument if the sizes are not those of `modes`, there are none, or as
   /// normalise_rows() does.
@@ -70,6 +79,14 @@ class ImmOf {
   void set_probability(const ModeProbability& probability) { probability_ = probability; }
   /// Position and velocity [x vx y vy (z vz)], moments of the mixture.
   Gaussian<2 * Axes> combined() const;
+  /// Has the same models in the same order, whatever they believe.
+  bool alike(const ImmOf& other) const;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.probability_, s.switching_, s.modes_);
+  }
+  void restored() const;
 
  private:
   ModeProbability probability_;

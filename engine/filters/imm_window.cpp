@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/filters/bank_mixture.hpp"
 #include "glint/engine/filters/measurement_prediction.hpp"
 
@@ -113,7 +114,6 @@ MultiscanReport ImmWindow<Sensor>::step(std::span<const Seen> points, const Sens
 /// From each target's estimate before the window, or its start, through the scans since.
 template <class Sensor>
 MultiscanReport ImmWindow<Sensor>::restart(const PastScan& newest) {
-  jpda_.clear(), active_.clear(), hypotheses_.clear();
   const std::size_t scans = past_.size() + 1;
   MultiscanReport report;
   for (std::size_t s = 0; s < scans; ++s) {
@@ -125,6 +125,7 @@ MultiscanReport ImmWindow<Sensor>::restart(const PastScan& newest) {
     if (s + 1 < scans) advance();
   }
   remember(newest);
+  jpda_.clear(), active_.clear(), hypotheses_.clear();  // the next scan begins anew
   return report;
 }
 
@@ -336,6 +337,45 @@ void ImmWindow<Sensor>::merge(Target& target, std::size_t number,
     next.history[static_cast<std::size_t>(next.length++)] = child.option;
   }
   target.hypotheses = {first, next_.size() - first};
+}
+
+template <class Sensor>
+void ImmWindow<Sensor>::restored() const {
+  const auto most = static_cast<std::size_t>(settings_.scans);
+  require_bytes(past_.size() < most, "a window has too many scans");
+  if (settings_.reading == WindowReading::sliding) return check_hypotheses();
+  require_bytes(active_.empty() && hypotheses_.empty() && jpda_.targets() == 0,
+                "a window that restarts has hypotheses");
+  for (const Target& target : targets_) {
+    require_bytes(!target.before.empty() && target.before.size() <= most, "a target is not whole");
+  }
+}
+
+template <class Sensor>
+void ImmWindow<Sensor>::check_hypotheses() const {
+  require_bytes(active_.size() == targets() && jpda_.targets() == targets(),
+                "targets and hypotheses do not fit");
+  std::size_t first = 0;
+  for (std::uint32_t t = 0; t < targets(); ++t) {
+    const Range& own = targets_[t].hypotheses;
+    require_bytes(active_[t] == t && own.first == first && own.count == jpda_.hypotheses(t),
+                  "targets and hypotheses do not fit");
+    first += own.count;
+  }
+  require_bytes(first == hypotheses_.size(), "targets and hypotheses do not fit");
+  for (const Hypothesis& h : hypotheses_) {
+    require_bytes(h.length >= 0 && h.length < settings_.scans, "a hypothesis is too long");
+  }
+}
+
+template <class Sensor>
+void ImmWindow<Sensor>::require_alike(const Bank& bank) const {
+  const auto alike = [&](const Bank& other) { return other.alike(bank); };
+  const bool all = std::ranges::all_of(targets_, [&](const Target& target) {
+    return alike(target.estimate) && std::ranges::all_of(target.before, alike);
+  });
+  require_bytes(all && std::ranges::all_of(hypotheses_, alike, &Hypothesis::bank),
+                "a target moves by other models");
 }
 
 /// A window of one scan: all hypotheses are merged.

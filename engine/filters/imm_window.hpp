@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/association/multiscan_jpda.hpp"
@@ -63,12 +64,24 @@ class ImmWindow {
     return targets_[target].gate.of(shares_);
   }
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.jpda_, s.targets_, s.hypotheses_, s.past_, s.active_);
+  }
+  void restored() const;
+  /// Throws BytesError unless all banks are made of the models of `bank`, which are indexed by.
+  void require_alike(const Bank& bank) const;
+
  private:
   /// What the target had in the scans of the window before this one, and where that leads to.
   struct Hypothesis {
     std::array<std::uint32_t, kMostScans - 1> history{};
     int length = 0;
     Bank bank;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.history, s.length, s.bank);
+    }
   };
   /// What a hypothesis becomes with a point: the covariances are the same with every point.
   struct Child {
@@ -84,6 +97,10 @@ class ImmWindow {
     std::span<const T> of(const std::vector<T>& all) const {
       return std::span(all).subspan(first, count);
     }
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.first, s.count);
+    }
   };
   struct Target {
     Bank estimate;
@@ -96,11 +113,19 @@ class ImmWindow {
     double volume = 0;            // of the gate
     double missed = 1;
     std::size_t options() const { return gate.count + 1; }
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.estimate, s.before, s.hypotheses);
+    }
   };
   struct PastScan {
     std::vector<Seen> points;
     Sensor sensor;
     double density = 0, elapsed = 0;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.points, s.sensor, s.density, s.elapsed);
+    }
   };
   /// A hypothesis of a target with one of its options.
   struct Part {
@@ -108,6 +133,7 @@ class ImmWindow {
   };
   struct Parts;
 
+  void check_hypotheses() const;
   MultiscanReport restart(const PastScan& newest);
   MultiscanReport take_in(const PastScan& scan);
   void remember(const PastScan& scan);

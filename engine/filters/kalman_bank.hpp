@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <span>
+#include <tuple>
 
 #include "glint/engine/association/pmht.hpp"
 #include "glint/engine/filters/imm.hpp"
@@ -11,6 +12,8 @@ namespace glint {
 /// section 3.
 class KalmanBank {
  public:
+  /// To be restored.
+  KalmanBank() = default;
   /// `variance`: of a point's position along each axis [px^2].
   KalmanBank(Imm imm, double variance) : imm_(std::move(imm)), variance_(variance) {}
 
@@ -24,10 +27,17 @@ class KalmanBank {
 
   Gaussian<4> state() const { return imm_.combined(); }
   const ModeProbability& probability() const { return imm_.probability(); }
+  /// Is made of the same models.
+  bool alike(const KalmanBank& other) const { return imm_.alike(other.imm_); }
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.imm_, s.variance_);
+  }
 
  private:
   Imm imm_;
-  double variance_;
+  double variance_ = 1;
 };
 
 }  // namespace glint

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/kernels/core/kept_memory.hpp"
 #include "glint/kernels/core/particles.hpp"
 
@@ -33,6 +34,22 @@ class KeptParticles {
   }
   void fetch() {
     each([&](auto& values, Kept&) { device_.fetch(std::span(values)); });
+  }
+
+  void put_to(ByteWriter& to) const {
+    // What is fetched are bytes that count for nothing as yet.
+    const_cast<KeptParticles&>(*this).fetch();
+    put_bytes(to, arrays_);
+  }
+  void take_from(ByteReader& from) {
+    Particles read;
+    take_bytes(from, read);
+    read.for_each_array([&](const auto& values) {
+      require_bytes(values.size() == read.size(), "arrays of particles do not fit each other");
+    });
+    resize(read.size());  // then this copies to where the arrays are
+    arrays_ = read;
+    each([&](auto& values, Kept&) { device_.send(std::span(values)); });
   }
   void swap_weight(KeptArray<float>& other) noexcept { other.swap(arrays_.weight, kept_[kWeight]); }
 

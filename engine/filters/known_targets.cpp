@@ -20,6 +20,17 @@ KnownTargets::KnownTargets(const KnownTargetsConfig& config, const MotionBank& b
       modes_(bank.modes.size()),
       clouds_(bank, config.particles, device, seed ^ kTargets) {}
 
+/// Boxes of pixels are made of where it is.
+void KnownTarget::restored() const {
+  constexpr double kFar = 1e6;  // [px]
+  require_bytes(std::abs(estimate.x) < kFar && std::abs(estimate.y) < kFar, "a target is nowhere");
+  require_frame_number(detected);
+}
+
+void KnownTargets::restored() const {
+  require_bytes(clouds_.size() == targets_.size(), "targets and clouds do not fit");
+}
+
 void KnownTargets::follow(const Frame& z, const StepTime& at, TrackLog& log) {
   confirmed_now_.clear();
   clouds_.predict(at.frame, at.step);

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/config.hpp"
@@ -40,6 +41,13 @@ struct KnownTarget {
   std::int64_t detected = 0;      ///< frame k0
   std::int64_t first_missed = 0;  ///< of the present row of misses
   Peak estimate;                  ///< velocity a frame
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.id, s.existence, s.hits, s.misses, s.confirmed, s.ended, s.detected,
+                    s.first_missed, s.estimate);
+  }
+  void restored() const;
 };
 
 /// Tracks from their detection to their end, each with a particle filter of its own.
@@ -62,6 +70,12 @@ class KnownTargets {
   const TargetClouds& clouds() const { return clouds_; }  ///< same indices
   /// Boxes of 2 half_width + 1 pixels around all targets.
   void boxes(int half_width, std::vector<Box>& boxes) const;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.clouds_, s.targets_, s.next_id_);
+  }
+  void restored() const;
 
  private:
   void judge(KnownTarget& target, const TargetUpdate& update, std::int64_t frame) const;

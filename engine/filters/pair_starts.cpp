@@ -2,9 +2,11 @@
 #include "glint/engine/filters/pair_starts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
 
 namespace glint {
@@ -28,6 +30,13 @@ void pair_points(std::span<const Point> before, std::span<const Point> now, doub
     return std::tie(b.score, a.y, a.x, a.before_y, a.before_x) <
            std::tie(a.score, b.y, b.x, b.before_y, b.before_x);
   });
+}
+
+void PairStarts::restored() const {
+  for (const Point& p : now_) {
+    require_bytes(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.amplitude),
+                  "a point is nowhere");
+  }
 }
 
 std::span<const PairStart> PairStarts::find(FrameView whitened, double reach) {

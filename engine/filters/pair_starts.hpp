@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/kernels/core/device.hpp"
@@ -34,6 +35,13 @@ class PairStarts {
   /// Pairs of this frame with the one of the last call, by falling score. Valid until the next
   /// call. An empty frame has no points.
   std::span<const PairStart> find(FrameView whitened, double reach);
+
+  // The next find() takes them for those before.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.now_);
+  }
+  void restored() const;
 
  private:
   void find_points(FrameView whitened);

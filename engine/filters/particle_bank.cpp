@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "glint/engine/bytes.hpp"
+
 namespace glint {
 namespace {
 
@@ -84,6 +86,21 @@ ParticleBank::ParticleBank(Imm imm, int particles, double variance, std::uint64_
     clouds_[m].seed = (static_cast<std::uint64_t>(r.w[0]) << 32) | r.w[1];
     std::visit([&](const auto& mode) { draw(clouds_[m], mode.belief); }, imm_.modes()[m]);
   }
+}
+
+bool ParticleBank::alike(const ParticleBank& other) const {
+  return imm_.alike(other.imm_) && particles_ == other.particles_;
+}
+
+void ParticleBank::restored() {
+  require_bytes(particles_ > 0 && clouds_.size() == imm_.modes().size(), "a bank is not whole");
+  for (std::size_t m = 0; m < clouds_.size(); ++m) {
+    const auto numbers =
+        std::visit([](const auto& mode) { return mode.belief.mean.size(); }, imm_.modes()[m]);
+    require_bytes(clouds_[m].state.size() == static_cast<std::size_t>(numbers) * size(),
+                  "a cloud of particles is not whole");
+  }
+  weights_.resize(size()), ancestors_.resize(size());
 }
 
 RandomKey ParticleBank::key(const Cloud& cloud, Purpose purpose) const {

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/association/pmht.hpp"
@@ -15,6 +16,8 @@ namespace glint {
 /// are those of an IMM. P-MMPF section 2.
 class ParticleBank {
  public:
+  /// To be restored.
+  ParticleBank() = default;
   /// Draws `particles` of each model from its belief in `imm`. `variance`: of a point's position
   /// along each axis [px^2]; `seed` and `track` are the address of all draws.
   ParticleBank(Imm imm, int particles, double variance, std::uint64_t seed, std::int64_t track);
@@ -29,12 +32,24 @@ class ParticleBank {
 
   Gaussian<4> state() const { return imm_.combined(); }
   const ModeProbability& probability() const { return imm_.probability(); }
+  /// Is made of the same models and numbers of particles.
+  bool alike(const ParticleBank& other) const;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.imm_, s.particles_, s.variance_, s.scan_, s.clouds_);
+  }
+  void restored();
 
  private:
   struct Cloud {
     std::vector<float> state;  // number by number of the model's state, each of all particles
     std::uint64_t seed = 0;    // of its draws
     bool collapsed = false;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.state, s.seed, s.collapsed);
+    }
   };
 
   std::size_t size() const { return static_cast<std::size_t>(particles_); }
@@ -54,8 +69,8 @@ class ParticleBank {
   double weigh() const;
 
   Imm imm_;  // its beliefs are the clouds' moments
-  int particles_;
-  double variance_;
+  int particles_ = 0;
+  double variance_ = 1;
   std::uint32_t scan_ = 0;  // counted from the start
   std::vector<Cloud> clouds_;
   // Memory to be used again.

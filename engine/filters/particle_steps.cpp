@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/engine/filters/particle_steps.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "glint/engine/bytes.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
 #include "glint/kernels/propagate/propagate.hpp"
 
@@ -38,6 +43,19 @@ void weigh_particles(const ParticleModel& model, const Frame& z, std::int64_t fr
        .log_ratio = log_ratio,
        .jitter = model.appearance.jitter(),
        .key = random_key(model.seed, static_cast<std::uint64_t>(frame), Purpose::jitter)});
+}
+
+void require_particles(const Particles& particles, std::size_t modes) {
+  std::apply(
+      [&](const auto&... array) {
+        require_bytes(((array.size() == particles.size()) && ...), "a particle is not whole");
+      },
+      Particles::fields(particles));
+  require_bytes(std::ranges::all_of(particles.mode, [&](auto mode) { return mode < modes; }),
+                "a particle has no such motion model");
+  require_bytes(
+      std::ranges::all_of(particles.weight, [](float w) { return w >= 0 && std::isfinite(w); }),
+      "a particle's weight is no such number");
 }
 
 }  // namespace glint

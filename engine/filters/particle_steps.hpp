@@ -27,4 +27,7 @@ void move_particles(const ParticleModel& model, std::int64_t frame, double step,
 void weigh_particles(const ParticleModel& model, const Frame& z, std::int64_t frame,
                      const Particles& particles, std::span<float> log_ratio);
 
+/// Throws BytesError unless the arrays fit each other and what a bank of `modes` models moves.
+void require_particles(const Particles& particles, std::size_t modes);
+
 }  // namespace glint

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/kernels/dp_stage/dp_stage.hpp"
 
 namespace glint {
@@ -30,13 +31,32 @@ void trim(WindowPath& path) {
 PathWindow::PathWindow(int stages, double separation, const Device& device)
     : separation_(separation), device_(device), stages_(static_cast<std::size_t>(stages)) {}
 
+void PathWindow::make_maps(int width, int height) {
+  for (KeptImage<float>& total : total_) total = KeptImage<float>(width, height, device_);
+  for (Stage& s : stages_) {
+    for (auto* moves : {&s.dx, &s.dy}) *moves = KeptImage<std::int8_t>(width, height, device_);
+  }
+}
+
+void PathWindow::restored() {
+  require_bytes(oldest_ < stages_.size() && count_ <= stages_.size(),
+                "a window of paths is not whole");
+  const int width = stages_[0].score.width(), height = stages_[0].score.height();
+  const auto allowed = [](int pixels) { return pixels >= 0 && pixels <= kMaxDpReach; };
+  for (const Stage& s : stages_) {
+    require_bytes(s.score.width() == width && s.score.height() == height &&
+                      allowed(s.moves.reach) && allowed(s.moves.tolerance),
+                  "a stage of paths is not whole");
+  }
+  if (width == 0) return;
+  make_maps(width, height);
+  for (Stage& s : stages_) s.score.keep(device_);
+}
+
 ImageView<float> PathWindow::next(int width, int height) {
   if (total_[0].width() != width || total_[0].height() != height) {
-    for (KeptImage<float>& total : total_) total = KeptImage<float>(width, height, device_);
-    for (Stage& s : stages_) {
-      s.score = KeptImage<float>(width, height, device_);
-      for (auto* moves : {&s.dx, &s.dy}) *moves = KeptImage<std::int8_t>(width, height, device_);
-    }
+    make_maps(width, height);
+    for (Stage& s : stages_) s.score = KeptImage<float>(width, height, device_);
     count_ = oldest_ = 0;
   }
   if (full()) oldest_ = (oldest_ + 1) % stages_.size(), --count_;

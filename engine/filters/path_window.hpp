@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/kernels/core/device.hpp"
@@ -30,6 +31,11 @@ struct WindowPath {
 struct StageMoves {
   int reach = 3;
   int tolerance = 2;  ///< of a move against the move before it
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.reach, s.tolerance);
+  }
 };
 
 /// The last few score maps, and the best paths through them by dynamic programming.
@@ -43,11 +49,20 @@ class PathWindow {
   /// The map that next() gave is filled: it is the newest stage, reached by these moves.
   void push(StageMoves moves);
   bool full() const { return count_ == stages_.size(); }
+  std::size_t filled() const { return count_; }          ///< stages so far
+  std::size_t stages() const { return stages_.size(); }  ///< of a full window
 
   /// Paths of a full window that end in local maxima above the threshold, by falling total. Of two
   /// that come within `separation` of each other at any stage the better is kept. Stages at either
   /// end whose scores add up to nothing positive are trimmed.
   std::span<const WindowPath> find(float threshold);
+
+  // What find() makes of the scores is made anew every time.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.stages_, s.oldest_, s.count_);
+  }
+  void restored();
 
  private:
   struct Stage {
@@ -55,8 +70,14 @@ class PathWindow {
     KeptImage<std::int8_t> dx, dy;
     StageMoves moves;
     std::vector<bool> fetched;  ///< by row: on the host since the last run
+
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.score, s.moves);
+    }
   };
   Stage& stage(std::size_t k) { return stages_[(oldest_ + k) % stages_.size()]; }
+  void make_maps(int width, int height);
   void run();
   void fetch_row(Stage& stage, int y) const;
   WindowPath trace(int x, int y);

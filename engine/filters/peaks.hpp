@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/kernels/cell_weights/cell_weights.hpp"
@@ -17,6 +18,13 @@ struct Peak {
   double var_x = 0, cov_xy = 0, var_y = 0;  ///< [px^2]
   std::array<double, 8> mode_mass{};        ///< share of each motion model; sums to 1
   std::size_t first = 0, last = 0;          ///< members: PeakFinder::members()[first, last)
+
+  // But for the members, who are those of one frame.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.mass, s.x, s.y, s.vx, s.vy, s.intensity, s.var_x, s.cov_xy, s.var_y,
+                    s.mode_mass);
+  }
 };
 
 /// Weighted moments of `members`; `weight` is by particle, not by member. The mass must be

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cmath>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/filters/scan_points.hpp"
 
 namespace glint {
@@ -12,7 +15,15 @@ namespace glint {
 /// A point that no track has.
 struct FreePoint {
   Eigen::Vector2d position;  ///< [px]
-  double amplitude = 0;      ///< [sigma]
+  double amplitude = 0;      ///< [sigma]; finite
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.position, s.amplitude);
+  }
+  void restored() const {
+    require_bytes(position.allFinite() && std::isfinite(amplitude), "a point is nowhere");
+  }
 };
 
 /// Two points, of one scan and of the next, that may be one new target.
@@ -30,6 +41,12 @@ class PointStarts {
   /// nearest, then in the order of the points. Valid until the next call.
   std::span<const PointStart> find(std::span<const FreePoint> before,
                                    std::span<const FreePoint> now, double reach);
+
+  // The next() after it takes them for those before.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.free_);
+  }
 
  private:
   struct Candidate {

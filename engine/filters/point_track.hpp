@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <tuple>
 
 #include "glint/engine/config.hpp"
 #include "glint/engine/filters/gaussian.hpp"
@@ -27,17 +28,23 @@ void keep_to_known(PointTrackConfig& config);
 
 /// A track of points, but for what it is followed with.
 struct PointTrack {
-  std::int64_t id, first_frame, last_seen;
+  std::int64_t id = 0, first_frame = 0, last_seen = 0;
   TrackLife life;
-  double amplitude;     ///< [sigma]
-  Gaussian<4> state{};  ///< [x vx y vy]
-  bool told = false;    ///< the log knows that it is confirmed
-  int merged = 0;       ///< scans in a row that an older track was as near as `separation`
+  double amplitude = 0;  ///< [sigma]
+  Gaussian<4> state{};   ///< [x vx y vy]
+  bool told = false;     ///< the log knows that it is confirmed
+  int merged = 0;        ///< scans in a row that an older track was as near as `separation`
 
   Eigen::Vector2d position() const { return {state.mean(0), state.mean(2)}; }
   /// Lives, and is nearer to `place` than `separation` [px].
   bool near(const Eigen::Vector2d& place, double separation) const {
     return !life.over() && (position() - place).norm() < separation;
+  }
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.id, s.first_frame, s.last_seen, s.life, s.amplitude, s.state, s.told,
+                    s.merged);
   }
 };
 

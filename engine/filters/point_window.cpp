@@ -58,6 +58,23 @@ std::span<const double> PointWindow::shares(std::size_t target) const {
   return std::visit([&](const auto& m) { return m.window.shares(target); }, measured_);
 }
 
+std::size_t PointWindow::targets() const {
+  return std::visit([](const auto& m) { return m.window.targets(); }, measured_);
+}
+
+// The sensor's place comes with every scan that is followed: noise_at() asks for the last one's.
+void PointWindow::put_to(ByteWriter& to) const {
+  std::visit([&](const auto& m) { put_bytes(to, m.window), put_bytes(to, m.sensor); }, measured_);
+}
+
+void PointWindow::take_from(ByteReader& from) {
+  std::visit([&](auto& m) { take_bytes(from, m.window), take_bytes(from, m.sensor); }, measured_);
+}
+
+void PointWindow::require_alike(const Imm& bank) const {
+  std::visit([&](const auto& m) { m.window.require_alike(bank); }, measured_);
+}
+
 Eigen::Matrix2d PointWindow::noise_at(const Eigen::Vector2d& position) const {
   return std::visit(
       [&](const auto& m) { return located(m.sensor, measured(m.sensor, position)).covariance; },

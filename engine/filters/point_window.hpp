@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/filters/imm_window.hpp"
 
 namespace glint {
@@ -33,6 +34,12 @@ class PointWindow {
   std::span<const double> shares(std::size_t target) const;
   /// Covariance of a point at `position` [px^2].
   Eigen::Matrix2d noise_at(const Eigen::Vector2d& position) const;
+  std::size_t targets() const;
+
+  /// For checkpoints: into a window of the same settings. `bank` has the models of all targets.
+  void put_to(ByteWriter& to) const;
+  void take_from(ByteReader& from);
+  void require_alike(const Imm& bank) const;
 
  private:
   /// A window and its sensor.

@@ -2,6 +2,7 @@
 #pragma once
 #include <limits>
 #include <span>
+#include <tuple>
 
 #include <Eigen/Core>
 
@@ -11,6 +12,11 @@ namespace glint {
 struct AxisBelief {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.mean, s.covariance);
+  }
 };
 
 /// A time at which the state is wanted, and the position measured there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -15,6 +16,11 @@ class PointArea {
   void see(const Scan& scan);
   /// With `margin` [px] about a box; at least 1 px^2.
   double size(double margin = 0) const;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.box_.min(), s.box_.max(), s.frame_);
+  }
 
  private:
   Eigen::AlignedBox2d box_;

@@ -57,6 +57,11 @@ void SearchCloud::set_appearance(const TargetAppearance& appearance) {
   clear();  // intensities were for another shape
 }
 
+void SearchCloud::restored() const {
+  require_particles(particles_.arrays(), bank_.modes.size());
+  require_bytes(cells_.runs.cell.size() == cells_.cell_sum.size(), "cells and sums do not fit");
+}
+
 void SearchCloud::clear() {
   particles_.resize(0);
   expected_ = 0;

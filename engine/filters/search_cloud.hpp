@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 
 #include "glint/engine/filters/births.hpp"
 #include "glint/engine/filters/kept_particles.hpp"
@@ -84,6 +85,14 @@ class SearchCloud {
   std::size_t size() const { return particles_.size(); }
   /// The particles by pixel, of the last update.
   const CellRuns& runs() const { return cells_.runs; }
+
+  // Of the cells, births ask for what the last update found there.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.appearance_, s.births_, s.particles_, s.cells_.runs.cell, s.cells_.cell_sum,
+                    s.expected_, s.weight_of_each_);
+  }
+  void restored() const;
 
  private:
   void give_birth(const Frame& z, std::int64_t frame, double step, const PixelMask& mask);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <tuple>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/scan.hpp"
 
 namespace glint {
@@ -12,6 +14,12 @@ struct StepTime {
   double time = 0;            ///< [s]
   double step = 1;            ///< frames since the last one
   double velocity_scale = 1;  ///< px a frame to px/s
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.frame, s.time, s.step, s.velocity_scale);
+  }
+  void restored() const { require_frame_number(frame); }
 };
 
 /// Tells each scan's step from the scan before; the first counts as one frame of one second.
@@ -28,6 +36,12 @@ class StepClock {
     frame_ = scan.frame, time_ = scan.time;
     return at;
   }
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.frame_, s.time_);
+  }
+  void restored() const { require_frame_number(frame_); }
 
  private:
   std::int64_t frame_ = -1;

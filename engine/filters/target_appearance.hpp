@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/config.hpp"
@@ -42,6 +43,15 @@ class TargetAppearance {
   double cluster_radius(double given) const { return given > 0 ? given : spread_.half_width + 0.5; }
   /// "psf_sigma = 1.04 px (fitted ...)".
   std::string note() const;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    // The settings, too: a cloud takes over those of the appearance that it is given.
+    return std::tie(s.config_.psf_sigma, s.config_.snr_low, s.config_.snr_high,
+                    s.config_.intensity_walk, s.config_.jitter, s.spread_.sigma, s.intensity_low_,
+                    s.intensity_high_, s.seen_, s.set_, s.fitted_);
+  }
+  void restored() { spread_ = PointSpread::of(spread_.sigma); }
 
  private:
   void set(double psf_sigma);

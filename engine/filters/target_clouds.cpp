@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/filters/moved_particles.hpp"
 #include "glint/engine/filters/particle_steps.hpp"
 #include "glint/kernels/cell_weights/bound.hpp"
@@ -30,6 +31,11 @@ void TargetClouds::set_appearance(const TargetAppearance& appearance) {
                                           appearance_.spread().intensity_of_snr(0));
   for (float& intensity : particles_.intensity) intensity *= rescale;
   appearance_ = appearance;
+}
+
+void TargetClouds::restored() const {
+  require_particles(particles_, bank_.modes.size());
+  require_bytes(particles_.size() % count_ == 0, "a target's cloud is not whole");
 }
 
 void TargetClouds::add(const Particles& from, std::span<const std::uint32_t> members,

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/filters/peaks.hpp"
@@ -47,6 +48,12 @@ class TargetClouds {
   void resample(std::int64_t frame);
 
   const Particles& particles() const { return particles_; }
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.appearance_, s.particles_);
+  }
+  void restored() const;
 
  private:
   RandomKey cloud_key(std::size_t t, std::int64_t frame, Purpose purpose) const;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <tuple>
+
 #include "glint/engine/config.hpp"
 #include "glint/engine/tracks.hpp"
 
@@ -20,6 +22,8 @@ void describe(FieldList& f, TrackLifeConfig& c);
 /// Stankovic 1994).
 class TrackLife {
  public:
+  /// To be restored.
+  TrackLife() = default;
   /// A tentative track after its first two points, or one that is known to be a target.
   TrackLife(const TrackLifeConfig& config, bool known);
   /// A further scan. `hit`: it holds a point of the target; `ratio`: likelihood of its points if
@@ -32,9 +36,14 @@ class TrackLife {
   double existence() const { return existence_; }
   TrackStatus status() const;
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.existence_, s.confirmed_, s.over_, s.age_, s.hits_, s.misses_);
+  }
+
  private:
-  double existence_;
-  bool confirmed_, over_ = false;
+  double existence_ = 0;
+  bool confirmed_ = false, over_ = false;
   int age_ = 2, hits_ = 2, misses_ = 0;  // scans
 };
 

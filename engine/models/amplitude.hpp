@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 namespace glint {
 
@@ -37,6 +38,11 @@ class TargetAmplitude {
     if (model == AmplitudeModel::none) return 0;
     const double a = std::max(amplitude, threshold);
     return model == AmplitudeModel::rayleigh ? rayleigh(a, threshold) : gaussian(a, threshold);
+  }
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.mean_);
   }
 
  private:

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <tuple>
+
 #include <Eigen/Core>
 
 #include "glint/engine/filters/gaussian.hpp"
@@ -14,18 +16,30 @@ template <int Axes>
 struct PositionSensor {
   static constexpr int kAxes = Axes, kSize = Axes, kAzimuth = -1;
   Eigen::Matrix<double, Axes, Axes> noise = Eigen::Matrix<double, Axes, Axes>::Identity();
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.noise);
+  }
 };
 /// Range [length] and azimuth [rad].
 struct RangeAzimuth {
   static constexpr int kAxes = 2, kSize = 2, kAzimuth = 1;
   Eigen::Matrix2d noise = Eigen::Matrix2d::Identity();
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of the sensor
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.noise, s.place);
+  }
 };
 /// Range [length], azimuth and elevation above the plane of x and y [rad].
 struct RangeAzimuthElevation {
   static constexpr int kAxes = 3, kSize = 3, kAzimuth = 1;
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the sensor
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.noise, s.place);
+  }
 };
 
 template <class Sensor>

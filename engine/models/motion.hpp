@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <tuple>
+
 #include "glint/engine/filters/gaussian.hpp"
 #include "glint/engine/models/singer.hpp"
 
@@ -13,22 +15,38 @@ namespace glint {
 struct ConstantVelocity {
   static constexpr int kParts = 2;
   double noise = 1;  ///< spectral density of the acceleration [length^2/time^3]
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.noise);
+  }
 };
 /// White jerk.
 struct ConstantAcceleration {
   static constexpr int kParts = 3;
   double noise = 1;  ///< spectral density of the jerk [length^2/time^5]
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.noise);
+  }
 };
 /// Acceleration that is drawn anew for every step and constant within it (NCV). Two half steps are
 /// less noisy than a whole one.
 struct NearlyConstantVelocity {
   static constexpr int kParts = 2;
   double variance = 1;  ///< of the acceleration [length^2/time^4]
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.variance);
+  }
 };
 /// Acceleration that jumps at every step and is constant within it (WPA); the CA of P-PMHT.
 struct WienerAcceleration {
   static constexpr int kParts = 3;
   double variance = 1;  ///< of a step's jump of the acceleration [length^2/time^4]
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.variance);
+  }
 };
 /// Turn in the plane of x and y at a known rate, with white acceleration; along z at constant
 /// velocity. A positive rate turns x towards y: to the left where y points up, to the right in a
@@ -37,6 +55,10 @@ struct CoordinatedTurn {
   static constexpr int kParts = 2;
   double rate = 0;   ///< [rad/time]
   double noise = 1;  ///< spectral density of the acceleration [length^2/time^3]
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.rate, s.noise);
+  }
 };
 
 template <class Model>

@@ -48,6 +48,21 @@ HPmht::HPmht(const HPmhtConfig& config, const Device& device, std::uint64_t /*se
   }
 }
 
+void HPmht::restored() {
+  require_bytes(window_.size() <= static_cast<std::size_t>(config_.batch) &&
+                    scans_.size() == window_.size() && lives_.size() == targets_.size() &&
+                    (targets_.empty() || !scans_.empty()),
+                "the batch is not whole");
+  require_frame_number(last_frame_);
+  for (std::size_t t = 0; t < scans_.size(); ++t) {
+    require_bytes(bool{window_[t].frame}, "a frame of the batch is missing");
+    scans_[t].frame = window_[t].frame.view();
+  }
+  for (const BatchTarget& target : targets_) {
+    require_bytes(target.first <= scans_.size(), "a target of the batch has no such scan");
+  }
+}
+
 void HPmht::step(const Scan& scan, TrackLog& log) {
   const Frame& frame = config_.intensity == "rpim" ? scan.raw : scan.whitened;
   if (frame.width() == 0) return;

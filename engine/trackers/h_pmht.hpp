@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/config.hpp"
@@ -52,7 +53,7 @@ void describe(FieldList& f, HPmhtConfig& c);
 /// Histogram probabilistic multi-hypothesis tracker, P-HPMHT, over a sliding batch of scans, with
 /// targets that come and go (docs/trackers/h-pmht.md). Tracks enter the log when they are
 /// confirmed; their points are revised as long as they are in the batch.
-class HPmht : public Tracker {
+class HPmht : public TrackerOf<HPmht> {
  public:
   /// Throws ConfigError for settings that do not fit together.
   HPmht(const HPmhtConfig& config, const Device& device, std::uint64_t seed);
@@ -62,19 +63,38 @@ class HPmht : public Tracker {
   void start(double x, double y, double vx, double vy) { starts_.push_back({x, y, vx, vy}); }
   void step(const Scan& scan, TrackLog& log) override;
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.batch_, s.window_, s.scans_, s.targets_, s.lives_, s.starts_, s.next_id_,
+                    s.pairs_, s.last_frame_, s.last_time_);
+  }
+  void restored();
+
  private:
   struct Start {
     double x, y, vx, vy;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.x, s.y, s.vx, s.vy);
+    }
   };
   struct WindowScan {
     Frame frame;  ///< keeps the batch's view alive
     std::int64_t number;
     double time;
     double rate;  ///< [frames/s]
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.frame, s.number, s.time, s.rate);
+    }
   };
   struct Life {
     std::int64_t id = 0;  ///< 0 until confirmed
     bool over = false;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.id, s.over);
+    }
   };
 
   void advance(const Scan& scan, const Frame& frame);

@@ -33,6 +33,14 @@ ImmJpda::ImmJpda(const ImmJpdaConfig& config, const Device&, std::uint64_t /*see
   check(config);
 }
 
+void ImmJpda::restored() const {
+  const Imm bank = imm_jpda_bank(config_, {});
+  for (const Crew* crew : {&confirmed_, &tentative_}) {
+    crew->window.require_alike(bank);
+    require_bytes(crew->window.targets() == crew->tracks.size(), "tracks and targets do not fit");
+  }
+}
+
 void ImmJpda::Crew::add(PointTrack track, const Imm& bank) {
   window.add(bank);
   tracks.push_back(std::move(track));

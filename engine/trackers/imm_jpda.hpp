@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -58,7 +59,7 @@ Imm imm_jpda_bank(const ImmJpdaConfig& config, const Gaussian<4>& state);
 /// Interacting multiple models with joint probabilistic data association over one scan or a window
 /// of scans, a tracker of points: P-JPDA with the corrections of docs/trackers/imm-jpda.md. Starts
 /// and ends its tracks by itself unless told otherwise.
-class ImmJpda : public Tracker {
+class ImmJpda : public TrackerOf<ImmJpda> {
  public:
   ImmJpda(const ImmJpdaConfig& config, const Device& device, std::uint64_t seed);
   Feed feed() const override { return Feed::points; }
@@ -68,6 +69,14 @@ class ImmJpda : public Tracker {
   void step(const Scan& scan, TrackLog& log) override;
   std::vector<std::string> notes() const override;
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.clock_, s.last_time_, s.known_, s.confirmed_, s.tentative_, s.next_id_,
+                    s.scans_, s.approximate_, s.trimmed_, s.independent_, s.largest_,
+                    s.points_.area, s.starts_);
+  }
+  void restored() const;
+
  private:
   /// Tracks that compete for points, by rising id, and their filters.
   struct Crew {
@@ -75,6 +84,10 @@ class ImmJpda : public Tracker {
     std::vector<PointTrack> tracks;
     void add(PointTrack track, const Imm& bank);
     void remove(std::size_t i);
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.window, s.tracks);
+    }
   };
 
   void take_points(const Scan& scan);

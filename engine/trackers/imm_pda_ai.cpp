@@ -134,7 +134,15 @@ void ImmPdaAi::end_duplicates() {
   }
 }
 
-ImmPdaAi::Track ImmPdaAi::track_at(const Start& at, double amplitude, std::int64_t frame) {
+void ImmPdaAi::restored() {
+  require_frame_number(last_frame_);
+  const Imm bank = bank_at({0, 0, 0, 0});
+  for (const Track& track : tracks_) {
+    require_bytes(track.imm.alike(bank), "a target moves by other models");
+  }
+}
+
+Imm ImmPdaAi::bank_at(const Start& at) const {
   Mode<ConstantVelocity> slow{{config_.noise_slow}, {}};
   slow.belief.mean << at.x, at.vx, at.y, at.vy;
   const double p = noise_(0, 0), v = config_.velocity_sd * config_.velocity_sd;
@@ -143,7 +151,11 @@ ImmPdaAi::Track ImmPdaAi::track_at(const Start& at, double amplitude, std::int64
   Switching switching(2, 2);
   const double stay = config_.stay;
   switching << stay, 1 - stay, 1 - stay, stay;
-  const Imm imm({slow, fast}, switching, {0.5, 0.5});
+  return {{slow, fast}, switching, {0.5, 0.5}};
+}
+
+ImmPdaAi::Track ImmPdaAi::track_at(const Start& at, double amplitude, std::int64_t frame) {
+  const Imm imm = bank_at(at);
   return {next_id_++, frame, frame, imm, TargetAmplitude(amplitude), position_of(imm)};
 }
 

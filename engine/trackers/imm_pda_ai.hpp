@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/config.hpp"
@@ -41,7 +42,7 @@ void describe(FieldList& f, ImmPdaAiConfig& c);
 /// Interacting multiple models with probabilistic data association and amplitude information, a
 /// tracker of points: P-HPMHT section 4 after Lerro and Bar-Shalom 1993, started and ended by
 /// itself (docs/trackers/imm-pda-ai.md). Targets are followed independently of each other.
-class ImmPdaAi : public Tracker {
+class ImmPdaAi : public TrackerOf<ImmPdaAi> {
  public:
   /// Throws ConfigError for settings that do not fit together.
   ImmPdaAi(const ImmPdaAiConfig& config, const Device& device, std::uint64_t seed);
@@ -51,9 +52,19 @@ class ImmPdaAi : public Tracker {
   void start(double x, double y, double vx, double vy) { starts_.push_back({x, y, vx, vy}); }
   void step(const Scan& scan, TrackLog& log) override;
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.starts_, s.tracks_, s.next_id_, s.last_frame_, s.last_time_, s.area_);
+  }
+  void restored();
+
  private:
   struct Start {
     double x, y, vx, vy;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.x, s.y, s.vx, s.vy);
+    }
   };
   struct Measurement {
     Eigen::Vector2d position;
@@ -61,13 +72,18 @@ class ImmPdaAi : public Tracker {
     bool free = true;  ///< in the gate of no track
   };
   struct Track {
-    std::int64_t id;
-    std::int64_t first_frame, last_seen;
+    std::int64_t id = 0;
+    std::int64_t first_frame = 0, last_seen = 0;
     Imm imm;
     TargetAmplitude amplitude;
     Eigen::Vector2d position;  ///< [px]: asked for by every other track, so kept
     bool confirmed = false, over = false;
     int age = 1, hits = 1, misses = 0;  ///< scans
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.id, s.first_frame, s.last_seen, s.imm, s.amplitude, s.position, s.confirmed,
+                      s.over, s.age, s.hits, s.misses);
+    }
   };
 
   void measure(const Scan& scan);
@@ -77,6 +93,7 @@ class ImmPdaAi : public Tracker {
   void update(Track& track, std::int64_t frame);
   void learn(Track& track, std::size_t points, std::int64_t frame) const;
   void end_duplicates();
+  Imm bank_at(const Start& at) const;
   Track track_at(const Start& at, double amplitude, std::int64_t frame);
   void add_starts(const Scan& scan);
   void start_from_free_points(const Scan& scan);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/filters/known_targets.hpp"
@@ -30,13 +31,18 @@ void describe(FieldList& f, MmPfConfig& c);
 /// cloud holds the posterior odds of one target more, Boers and Driessen's likelihood ratio test
 /// declares it, its cluster becomes a particle filter of its own, and the search starts again
 /// without it.
-class MmPf : public Tracker {
+class MmPf : public TrackerOf<MmPf> {
  public:
   /// Throws ConfigError for settings that do not fit together.
   MmPf(const MmPfConfig& config, const Device& device, std::uint64_t seed);
   Feed feed() const override { return Feed::frames; }
   void step(const Scan& scan, TrackLog& log) override;
   std::vector<std::string> notes() const override { return {appearance_.note()}; }
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.appearance_, s.search_, s.targets_, s.clock_);
+  }
 
  private:
   void search(const Frame& z, const StepTime& at, TrackLog& log);

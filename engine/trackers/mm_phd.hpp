@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/filters/backward_pass.hpp"
@@ -31,13 +32,18 @@ void describe(FieldList& f, MmPhdConfig& c);
 /// MM-PHD track-before-detect, P-PHD section 4: a PHD detector over all motion models finds new
 /// targets, each one then has a particle filter of its own, and when a track is confirmed a
 /// backward pass finds where it came from.
-class MmPhd : public Tracker {
+class MmPhd : public TrackerOf<MmPhd> {
  public:
   /// Throws ConfigError for settings that do not fit together.
   MmPhd(const MmPhdConfig& config, const Device& device, std::uint64_t seed);
   Feed feed() const override { return Feed::frames; }
   void step(const Scan& scan, TrackLog& log) override;
   std::vector<std::string> notes() const override { return {appearance_.note()}; }
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.appearance_, s.search_, s.targets_, s.backward_, s.clock_);
+  }
 
  private:
   void detect(const Frame& z, const StepTime& at, TrackLog& log);

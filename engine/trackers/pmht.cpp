@@ -34,6 +34,14 @@ PmhtTracker<Config, Bank>::PmhtTracker(const Config& config, const Device&, std:
   check(config);
 }
 
+template <class Config, class Bank>
+void PmhtTracker<Config, Bank>::restored() const {
+  const Bank bank = bank_of(config_, PmhtStart{{0, 0}, {0, 0}}, seed_, 0);
+  for (const Track& track : tracks_) {
+    require_bytes(track.bank.alike(bank), "a target moves by other models");
+  }
+}
+
 /// The numbers are those of the steps in docs/trackers/pmht-imm.md. Tentative tracks get what the
 /// confirmed ones leave.
 template <class Config, class Bank>

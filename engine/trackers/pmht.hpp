@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/association/pmht.hpp"
@@ -56,6 +57,11 @@ struct PmhtHomotheticConfig : PmhtConfig {
 struct PmhtStart {
   Eigen::Vector2d position, velocity;  ///< [px], [px/time]
   double step = 1;                     ///< [time]
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.position, s.velocity, s.step);
+  }
 };
 
 /// The motion models of a tracker of points, their names and their start.
@@ -66,13 +72,18 @@ Imm pmht_bank(const PmhtConfig& config, const PmhtStart& start);
 struct ExpectedPlace {
   std::int64_t track_id;
   double x, y;  ///< [px]
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.track_id, s.x, s.y);
+  }
 };
 
 /// Sequential PMHT over all targets and motion models on each scan, a tracker of points: P-PMHT
 /// with the corrections of docs/trackers/pmht-imm.md. Starts and ends its tracks by itself unless
 /// told otherwise. `Bank` is what a target is followed with.
 template <class Config, class Bank>
-class PmhtTracker : public Tracker {
+class PmhtTracker : public TrackerOf<PmhtTracker<Config, Bank>> {
  public:
   PmhtTracker(const Config& config, const Device& device, std::uint64_t seed);
   Feed feed() const override { return Feed::points; }
@@ -83,10 +94,21 @@ class PmhtTracker : public Tracker {
   /// Of the tracks that the last scan moved, by rising id.
   const std::vector<ExpectedPlace>& expected() const { return expected_; }
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.clock_, s.last_time_, s.known_, s.tracks_, s.next_id_, s.expected_,
+                    s.points_.area, s.starts_);
+  }
+  void restored() const;
+
  private:
   struct Track : PointTrack {
     Bank bank;
     double weight = 0, ratio = 1;  // number of its points in this scan; what they say of existence
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tuple_cat(PointTrack::fields(s), std::tie(s.bank));
+    }
   };
 
   void take_points(const Scan& scan);

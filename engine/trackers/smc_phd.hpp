@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/config.hpp"
@@ -39,7 +40,7 @@ struct SmcPhdImprovedConfig : SmcPhdConfig {
 /// SMC-PHD track-before-detect, the standard tracker of P-PHD section 3.1 and the improved one of
 /// 3.2, with the corrections that make them work (docs/trackers/smc-phd.md), and identities that
 /// persist.
-class SmcPhd : public Tracker {
+class SmcPhd : public TrackerOf<SmcPhd> {
  public:
   /// Throws ConfigError for settings that do not fit together.
   SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t seed);
@@ -50,6 +51,11 @@ class SmcPhd : public Tracker {
   /// Expected number of targets after the last step. P-PHD (19)
   double expected_targets() const { return cloud_.expected(); }
   std::size_t particle_count() const { return cloud_.size(); }
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.appearance_, s.cloud_, s.identities_, s.noise_, s.clock_);
+  }
 
  private:
   void report(const Scan& scan, const StepTime& at, TrackLog& log);

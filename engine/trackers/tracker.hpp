@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "glint/engine/bytes.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/engine/tracks.hpp"
 
@@ -19,6 +24,24 @@ class Tracker {
   /// What was estimated or chosen on the way, for the summary and the header of track files:
   /// "psf_sigma = 1.04".
   virtual std::vector<std::string> notes() const { return {}; }
+  /// All that later scans depend on, and back: a tracker made of the same config, kind of device
+  /// and seed that restores it says of them what this one would, byte by byte. restore() throws
+  /// BytesError. Trackers of the registry inherit both from TrackerOf.
+  virtual void save(ByteWriter&) const { refuse_checkpoint(); }
+  virtual void restore(ByteReader&) { refuse_checkpoint(); }
+
+ private:
+  [[noreturn]] static void refuse_checkpoint() {
+    throw std::logic_error("a tracker that does not override save() has no checkpoint");
+  }
+};
+
+/// A tracker T whose state is what `T::fields()` names (bytes.hpp).
+template <class T>
+class TrackerOf : public Tracker {
+ public:
+  void save(ByteWriter& to) const final { put_bytes(to, static_cast<const T&>(*this)); }
+  void restore(ByteReader& from) final { take_bytes(from, static_cast<T&>(*this)); }
 };
 
 }  // namespace glint

@@ -20,6 +20,15 @@ Viterbi::Viterbi(const ViterbiConfig& config, const Device& device, std::uint64_
   }
 }
 
+void Viterbi::restored() const {
+  require_bytes(window_.stages() == static_cast<std::size_t>(config_.window) &&
+                    times_.size() == window_.filled(),
+                "the window is not whole");
+  for (const Track& track : tracks_) {
+    require_bytes(!track.points.empty(), "a track has no points");
+  }
+}
+
 void Viterbi::step(const Scan& scan, TrackLog& log) {
   if (scan.whitened.width() == 0) return;
   appearance_.look_at(scan);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "glint/engine/filters/path_window.hpp"
@@ -29,7 +30,7 @@ void describe(FieldList& f, ViterbiConfig& c);
 /// Viterbi-like dynamic programming track-before-detect, what P-PHD section 5.3 compares with: the
 /// best paths through a sliding window of log-likelihood ratio maps, stitched to tracks. Tracks are
 /// reported from the scan on whose window shows them, and filled in and corrected backwards.
-class Viterbi : public Tracker {
+class Viterbi : public TrackerOf<Viterbi> {
  public:
   /// Throws ConfigError for settings that do not fit together.
   Viterbi(const ViterbiConfig& config, const Device& device, std::uint64_t seed);
@@ -37,13 +38,23 @@ class Viterbi : public Tracker {
   void step(const Scan& scan, TrackLog& log) override;
   std::vector<std::string> notes() const override { return {appearance_.note()}; }
 
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.appearance_, s.window_, s.clock_, s.times_, s.tracks_, s.next_id_);
+  }
+  void restored() const;
+
  private:
   /// A track where the window still shows it. One that is halted takes the paths that come near
   /// it until its last point has left the window, and is not reported any more.
   struct Track {
-    std::int64_t id;
+    std::int64_t id = 0;
     std::vector<TrackPoint> points;  ///< by frame
     bool seen = true, halted = false;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.id, s.points, s.seen, s.halted);
+    }
   };
 
   void score(const Frame& z, double step);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <mutex>
@@ -18,6 +19,8 @@
 
 #include "glint/engine/engine.hpp"
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/capi/guard.hpp"
+#include "glint/frontends/capi/pushed_frame.hpp"
 #include "glint/frontends/capi/track_row.hpp"
 #include "glint/frontends/config/profiles.hpp"
 #include "glint/frontends/config/run_config.hpp"
@@ -25,6 +28,7 @@
 #include "glint/frontends/usage_error.hpp"
 
 using namespace glint;
+using namespace glint::capi;
 
 struct glint_engine {
   explicit glint_engine(Scheduler scheduler, const EngineSettings& settings)
@@ -37,56 +41,6 @@ struct glint_engine {
 
 namespace {
 
-thread_local std::string last_error;
-
-/// What a call was given is not right.
-struct BadArgument : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
-};
-
-void require(bool holds, const char* sentence) {
-  if (!holds) throw BadArgument(sentence);
-}
-
-/// Runs work(), which gives a status; nothing is thrown beyond here.
-template <class Work>
-glint_status guarded(const Work& work) noexcept {
-  const auto fail = [](glint_status status, const char* message) {
-    try {
-      last_error = message;
-    } catch (...) {
-      last_error.clear();
-    }
-    return status;
-  };
-  try {
-    return work();
-  } catch (const BadArgument& e) {
-    return fail(GLINT_BAD_ARGUMENT, e.what());
-  } catch (const ConfigError& e) {
-    return fail(GLINT_BAD_CONFIG, e.what());
-  } catch (const UsageError& e) {
-    return fail(GLINT_BAD_CONFIG, e.what());
-  } catch (const std::invalid_argument& e) {
-    return fail(GLINT_FAILED, e.what());
-  } catch (const std::logic_error& e) {
-    return fail(GLINT_BAD_STATE, e.what());
-  } catch (const std::exception& e) {
-    return fail(GLINT_FAILED, e.what());
-  } catch (...) {
-    return fail(GLINT_FAILED, "something that is no std::exception was thrown");
-  }
-}
-
-/// The caller's struct as ours: fields that its header did not have yet keep their defaults.
-template <class S>
-S taken(const S* given, S defaults, const char* what) {
-  require(given != nullptr, what);
-  require(given->struct_size >= sizeof(size_t), "struct_size is 0: use the _INIT macro");
-  std::memcpy(&defaults, given, std::min(given->struct_size, sizeof(S)));
-  return defaults;
-}
-
 Scheduler scheduler_of(const glint_options& options) {
   std::vector<ConfigSection> sections = all_sections();
   if (options.profile != nullptr) apply_profile(options.profile, sections);
@@ -98,85 +52,6 @@ Scheduler scheduler_of(const glint_options& options) {
     throw UsageError("no tracker is named; set options.tracker, for example to \"mm-phd\"");
   }
   return pushed_frames_scheduler(sections);
-}
-
-std::ptrdiff_t bytes_of(glint_pixel pixel) {
-  switch (pixel) {
-    case GLINT_GRAY8:
-      return 1;
-    case GLINT_GRAY16:
-      return 2;
-    case GLINT_FLOAT32:
-      return 4;
-  }
-  throw BadArgument("pixel must be GLINT_GRAY8, GLINT_GRAY16 or GLINT_FLOAT32");
-}
-
-template <class T>
-decltype(RawPixels::data) as_pixels(const void* data) {
-  return static_cast<const T*>(data);
-}
-
-decltype(RawPixels::data) as_pixels(const void* data, glint_pixel pixel) {
-  if (pixel == GLINT_GRAY8) return as_pixels<std::uint8_t>(data);
-  if (pixel == GLINT_GRAY16) return as_pixels<std::uint16_t>(data);
-  return as_pixels<float>(data);
-}
-
-/// Rows one after the other in aligned memory.
-std::shared_ptr<std::byte[]> rows_of(const glint_frame& frame, std::ptrdiff_t row) {
-  auto copy = std::make_shared_for_overwrite<std::byte[]>(
-      static_cast<std::size_t>(row * std::ptrdiff_t{frame.height}));
-  for (std::int32_t y = 0; y < frame.height; ++y) {
-    std::memcpy(copy.get() + y * row,
-                static_cast<const std::byte*>(frame.data) + y * frame.row_bytes,
-                static_cast<std::size_t>(row));
-  }
-  return copy;
-}
-
-/// Tells the caller when nobody reads the pixels any more, unless they stayed the caller's.
-class Lease {
- public:
-  Lease(void (*release)(void*), void* user, std::shared_ptr<const void> copy)
-      : release_(release), user_(user), copy_(std::move(copy)) {}
-  Lease(const Lease&) = delete;
-  Lease& operator=(const Lease&) = delete;
-  ~Lease() {
-    if (release_ != nullptr) release_(user_);
-  }
-  void keep() { release_ = nullptr; }
-
- private:
-  void (*release_)(void*);
-  void* user_;
-  std::shared_ptr<const void> copy_;
-};
-
-SourceFrame source_frame(glint_frame frame) {
-  require(frame.data != nullptr, "frame.data is NULL");
-  require(frame.width > 0 && frame.height > 0, "frame.width and frame.height must be above 0");
-  require(frame.channels == 1 || frame.channels == 3 || frame.channels == 4,
-          "frame.channels must be 1 (grey), 3 (BGR) or 4 (BGRA)");
-  const std::ptrdiff_t size = bytes_of(frame.pixel);
-  const std::ptrdiff_t row = size * frame.width * frame.channels;
-  if (frame.row_bytes == 0) frame.row_bytes = row;
-  require(frame.row_bytes >= row, "frame.row_bytes is less than a row of pixels");
-  const bool aligned =
-      frame.row_bytes % size == 0 &&
-      reinterpret_cast<std::uintptr_t>(frame.data) % static_cast<std::uintptr_t>(size) == 0;
-  SourceFrame source;
-  source.time = frame.time;
-  source.pixels = {{}, frame.width, frame.height, frame.channels, row / size};
-  if (frame.release != nullptr && aligned) {
-    source.pixels.data = as_pixels(frame.data, frame.pixel);
-    source.pixels.pitch = frame.row_bytes / size;
-    return source;
-  }
-  std::shared_ptr<std::byte[]> copy = rows_of(frame, row);
-  source.pixels.data = as_pixels(copy.get(), frame.pixel);
-  source.owner = std::move(copy);
-  return source;
 }
 
 /// An array of the caller's, whose elements may be older and shorter than ours.
@@ -196,6 +71,29 @@ class Tracks {
   std::byte* to_;
   std::size_t size_;
 };
+
+std::unique_ptr<glint_engine> created(const glint_options* options) {
+  const glint_options all = taken(options, GLINT_OPTIONS_INIT, "options is NULL");
+  EngineSettings settings;
+  if (all.queue > 0) settings.queue = all.queue;
+  require(all.when_full == GLINT_WAIT || all.when_full == GLINT_DROP_OLDEST,
+          "when_full must be GLINT_WAIT or GLINT_DROP_OLDEST");
+  if (all.when_full == GLINT_DROP_OLDEST) {
+    settings.when_full = EngineSettings::WhenFull::drop_oldest;
+  }
+  try {
+    return std::make_unique<glint_engine>(scheduler_of(all), settings);
+  } catch (const std::invalid_argument& e) {  // of settings that do not go together
+    throw UsageError(e.what());
+  }
+}
+
+/// A result that was polled and did not fit is still to be polled.
+std::string checkpoint_of(glint_engine& handle) {
+  const std::scoped_lock lock(handle.mutex);
+  if (handle.held) handle.engine.put_back(*std::exchange(handle.held, std::nullopt));
+  return handle.engine.checkpoint();
+}
 
 glint_status poll(glint_engine& handle, glint_result& given, glint_track* tracks,
                   std::size_t capacity) {
@@ -267,19 +165,7 @@ glint_status glint_create(const glint_options* options, glint_engine** engine) {
   return guarded([&] {
     require(engine != nullptr, "engine is NULL");
     *engine = nullptr;
-    const glint_options all = taken(options, GLINT_OPTIONS_INIT, "options is NULL");
-    EngineSettings settings;
-    if (all.queue > 0) settings.queue = all.queue;
-    require(all.when_full == GLINT_WAIT || all.when_full == GLINT_DROP_OLDEST,
-            "when_full must be GLINT_WAIT or GLINT_DROP_OLDEST");
-    if (all.when_full == GLINT_DROP_OLDEST) {
-      settings.when_full = EngineSettings::WhenFull::drop_oldest;
-    }
-    try {
-      *engine = std::make_unique<glint_engine>(scheduler_of(all), settings).release();
-    } catch (const std::invalid_argument& e) {  // of settings that do not go together
-      throw UsageError(e.what());
-    }
+    *engine = created(options).release();
     return GLINT_OK;
   });
 }
@@ -377,6 +263,35 @@ glint_status glint_counts(glint_engine* engine, int64_t* pushed, int64_t* droppe
     require(engine != nullptr, "engine is NULL");
     if (pushed != nullptr) *pushed = engine->engine.pushed();
     if (dropped != nullptr) *dropped = engine->engine.dropped();
+    return GLINT_OK;
+  });
+}
+
+glint_status glint_checkpoint(glint_engine* engine, void** data, size_t* size) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    require(data != nullptr && size != nullptr, "data or size is NULL");
+    *data = nullptr, *size = 0;
+    const std::string bytes = checkpoint_of(*engine);
+    *data = std::malloc(bytes.size());
+    if (*data == nullptr) throw std::bad_alloc();
+    std::memcpy(*data, bytes.data(), bytes.size());
+    *size = bytes.size();
+    return GLINT_OK;
+  });
+}
+
+void glint_free(void* data) { std::free(data); }
+
+glint_status glint_restore(const glint_options* options, const void* data, size_t size,
+                           glint_engine** engine) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    *engine = nullptr;
+    require(data != nullptr, "data is NULL");
+    std::unique_ptr<glint_engine> made = created(options);
+    made->engine.restore({static_cast<const char*>(data), size});
+    *engine = made.release();
     return GLINT_OK;
   });
 }

@@ -38,8 +38,9 @@ typedef enum glint_status {
   GLINT_TOO_SMALL = 3,    /* the array is too small; the count needed was stored */
   GLINT_BAD_ARGUMENT = 4, /* a pointer, a size or a field; see glint_last_error() */
   GLINT_BAD_CONFIG = 5,   /* an unknown key, tracker or profile, a value out of range */
-  GLINT_BAD_STATE = 6,    /* a frame after glint_finish() */
-  GLINT_FAILED = 7        /* tracking failed: the engine has ended */
+  GLINT_BAD_STATE = 6,    /* a frame or a checkpoint after glint_finish() */
+  GLINT_FAILED = 7,       /* tracking failed: the engine has ended */
+  GLINT_BAD_CHECKPOINT = 8 /* damaged, or of another version, config or kind of device */
 } glint_status;
 
 /* Of the library, for example "0.1.0". */
@@ -151,6 +152,21 @@ GLINT_API glint_status glint_revised(glint_engine *engine, glint_track *tracks, 
                                      size_t *count);
 /* Frames pushed, and those of them that were dropped. Either may be NULL. */
 GLINT_API glint_status glint_counts(glint_engine *engine, int64_t *pushed, int64_t *dropped);
+
+/* All that later frames depend on, and the tracks so far, as bytes. Frames that were pushed are
+ * tracked first, and a glint_push() meanwhile waits; results that wait to be polled come along.
+ * `*data` gets memory to be freed by glint_free(), `*size` its bytes; NULL and 0 on failure. */
+GLINT_API glint_status glint_checkpoint(glint_engine *engine, void **data, size_t *size);
+/* NULL is allowed. */
+GLINT_API void glint_free(void *data);
+/* Like glint_create(), but the engine goes on where that of the checkpoint was, in any process: the
+ * tracks are the same, byte by byte, as if it had never stopped. The next frame is the one after
+ * the last that was pushed. `options` name the same trackers and config (but for run.threads, queue
+ * and when_full), the library has the same version, and run.device is of the same kind:
+ * GLINT_BAD_CHECKPOINT otherwise, as for damaged bytes, and glint_last_error() says what differs.
+ * Keep checkpoints like a program's own files: nobody can tell a forged number from a true one. */
+GLINT_API glint_status glint_restore(const glint_options *options, const void *data, size_t size,
+                                     glint_engine **engine);
 
 #ifdef __cplusplus
 }

@@ -101,6 +101,21 @@ void add_trackers(Scheduler& scheduler, std::span<const ConfigSection> sections,
   }
 }
 
+/// The settings that results of pushed frames depend on: not where and by how many threads they are
+/// made.
+std::string settings_of_results(std::span<const ConfigSection> sections, const RunConfig& run) {
+  std::string text;
+  for (const ConfigSection& section : used_sections(sections, trackers_of(run))) {
+    text += '[' + section.name() + "]\n";
+    for (const ConfigField& field : section.fields()) {
+      const bool of_run = section.name() == "run";
+      if (of_run && (field.key == "device" || field.key == "threads")) continue;
+      text += field.key + " = " + to_toml(field) + '\n';
+    }
+  }
+  return text;
+}
+
 Scheduler pushed_frames_scheduler(std::span<const ConfigSection> sections) {
   const RunConfig run = section_named(sections, "run").as<RunConfig>();
   refuse_what_reads_files(run);
@@ -110,6 +125,7 @@ Scheduler pushed_frames_scheduler(std::span<const ConfigSection> sections) {
                       section_named(sections, "points").as<PointsConfig>());
   scheduler.keep(run.keep);
   add_trackers(scheduler, sections, device);
+  scheduler.set_settings(settings_of_results(sections, run));
   return scheduler;
 }
 

@@ -85,6 +85,14 @@ std::optional<Result> PushEngine::poll() {
   return Result{result->frame, result->time, result->latency, track_array(result->tracks)};
 }
 
+std::string PushEngine::checkpoint() {
+  return in_engine([&] { return engine_->checkpoint(); });
+}
+
+void PushEngine::restore(const std::string& checkpoint) {
+  in_engine([&] { engine_->restore(checkpoint); });
+}
+
 void PushEngine::drain() {
   in_engine([&] { engine_->drain(); });
 }

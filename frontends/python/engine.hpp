@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,8 @@ class PushEngine {
   bool push(const py::object& frame, double time, bool copy);
   bool push_points(const py::object& points, double time);
   std::optional<Result> poll();
+  std::string checkpoint();
+  void restore(const std::string& checkpoint);
   void drain();
   void finish();
   TrackArray reported();

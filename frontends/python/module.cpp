@@ -39,6 +39,7 @@ std::string default_config(const std::optional<std::string>& trackers) {
 
 void add_errors(py::module_& m) {
   static py::exception<ConfigError> config_error(m, "ConfigError", PyExc_ValueError);
+  py::register_exception<CheckpointError>(m, "CheckpointError", PyExc_ValueError);
   py::register_exception_translator(
       [](std::exception_ptr error) {  // NOLINT(performance-unnecessary-value-param)
         try {
@@ -85,6 +86,18 @@ void add_engine(py::module_& m) {
            "of an engine are of one kind. Returns and raises as push() does.")
       .def("poll", &PushEngine::poll,
            "The Result of the next frame that is done, in order, or None if there is none by now.")
+      .def(
+          "checkpoint", [](PushEngine& engine) { return py::bytes(engine.checkpoint()); },
+          "All that later frames depend on, and the tracks so far, as bytes.\n\n"
+          "Frames that were pushed are tracked first; results that wait to be polled come along.\n"
+          "Raises RuntimeError after finish(), and what ended the engine.")
+      .def(
+          "restore",
+          [](PushEngine& engine, const py::bytes& checkpoint) { engine.restore(checkpoint); },
+          "checkpoint"_a,
+          "Before the first push: go on from the checkpoint of an engine with the same settings,\n"
+          "as if it had never stopped. Raises CheckpointError (a ValueError) for one that is\n"
+          "damaged or of other settings, another version or kind of device.")
       .def("drain", &PushEngine::drain,
            "Wait until every frame that was pushed is done. Raises what ended the engine.")
       .def("finish", &PushEngine::finish,

@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "glint/kernels/core/frame.hpp"
@@ -26,6 +27,11 @@ struct CellRule {
 struct CellTotal {
   double norm = 0;   ///< ||Z||, the sum of z over the displayed cells
   double shown = 0;  ///< displayed cells
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.norm, s.shown);
+  }
 
   bool operator==(const CellTotal&) const = default;
 };
@@ -67,6 +73,11 @@ struct MixtureSums {
   double background = 0;      ///< n_0
   double shown = 0;           ///< P_t, total probability of the displayed cells, (8)
   double log_likelihood = 0;  ///< sum of z_l log P_l over the displayed cells; only if asked for
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.background, s.shown, s.log_likelihood);
+  }
 };
 
 /// Memory that cell_integrals keeps from call to call, so that a warm call allocates nothing.

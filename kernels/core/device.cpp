@@ -108,6 +108,10 @@ void Device::fill(std::span<float> values, float value) const {
   std::ranges::fill(values, value);
 }
 
+void Kept::fetch(const Region& region) const {
+  if (memory_ != nullptr) context_->run([&](gl::Queue& queue) { queue.fetch(region); });
+}
+
 Kept::~Kept() {
   if (memory_ == nullptr) return;
   context_->run([&](gl::Queue& queue) { queue.drop(memory_); });

@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include "glint/kernels/core/region.hpp"
+
 namespace glint {
 
 namespace gl {
@@ -26,6 +28,8 @@ class Kept {
   Kept(const Kept&) = delete;
   Kept& operator=(const Kept&) = delete;
   ~Kept();
+  /// Brings the host's bytes of the region, a part of what is held, up to date.
+  void fetch(const Region& region) const;
 
  private:
   std::shared_ptr<gl::Context> context_;

@@ -52,13 +52,28 @@ class KeptArray {
   void fetch() const { device_.fetch(values()); }
   void send() const { device_.send(values()); }
 
+  /// Values to bytes and back (engine/bytes.hpp).
+  template <class Writer>
+  void put_to(Writer& to) const {
+    fetch();
+    put_bytes(to, values_);
+  }
+  template <class Reader>
+  void take_from(Reader& from) {
+    AlignedVector<T> values;
+    take_bytes(from, values);
+    resize(values.size());
+    std::ranges::copy(values, values_.begin());
+    send();
+  }
+
  private:
   Device device_;
   AlignedVector<T> values_;
   Kept kept_;
 };
 
-/// An image that is kept.
+/// An image that is kept, but for one that was read from bytes: until keep() it is the host's.
 template <class T>
 class KeptImage {
  public:
@@ -77,6 +92,22 @@ class KeptImage {
   ImageView<T> view() { return image_.view(); }
   ImageView<const T> view() const { return image_.view(); }
   Image<T>& image() { return image_; }
+  void keep(const Device& device) {
+    kept_ = device.keep(image_.view());
+    device.send(image_.view());
+  }
+
+  /// Pixels to bytes and back (engine/bytes.hpp).
+  template <class Writer>
+  void put_to(Writer& to) const {
+    kept_.fetch(region_of(image_.view()));
+    put_bytes(to, image_);
+  }
+  template <class Reader>
+  void take_from(Reader& from) {
+    kept_ = {};
+    take_bytes(from, image_);
+  }
 
  private:
   Image<T> image_;

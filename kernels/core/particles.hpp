@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 
 #include "glint/kernels/core/aligned.hpp"
 
@@ -21,9 +22,14 @@ struct Particles {
   void reserve(std::size_t n) {
     for_each_array([n](auto& a) { a.reserve(n); });
   }
+  /// All arrays.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.x, s.y, s.vx, s.vy, s.ax, s.ay, s.intensity, s.weight, s.mode, s.label);
+  }
   template <class F>
   void for_each_array(F&& f) {
-    f(x), f(y), f(vx), f(vy), f(ax), f(ay), f(intensity), f(weight), f(mode), f(label);
+    std::apply([&](auto&... array) { (f(array), ...); }, fields(*this));
   }
 };
 

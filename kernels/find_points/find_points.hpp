@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "glint/kernels/core/frame.hpp"
@@ -15,6 +16,10 @@ struct Point {
   float x, y;       ///< [px]
   float amplitude;  ///< value of the map there
   bool operator==(const Point&) const = default;
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.x, s.y, s.amplitude);
+  }
 };
 
 /// Memory that find_points keeps from call to call, so that a warm call allocates nothing.

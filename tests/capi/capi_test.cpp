@@ -11,29 +11,10 @@
 #include <vector>
 
 #include "clip.hpp"
+#include "handle.hpp"
 
 namespace glint::test {
 namespace {
-
-struct Destroy {
-  void operator()(glint_engine* engine) const { glint_destroy(engine); }
-};
-using Handle = std::unique_ptr<glint_engine, Destroy>;
-
-Handle create(const char* tracker, const char* config = nullptr) {
-  glint_options options = GLINT_OPTIONS_INIT;
-  options.tracker = tracker, options.config = config;
-  glint_engine* engine = nullptr;
-  EXPECT_EQ(glint_create(&options, &engine), GLINT_OK) << glint_last_error();
-  return Handle(engine);
-}
-
-glint_frame frame_of(const std::vector<std::uint16_t>& pixels, double time) {
-  glint_frame frame = GLINT_FRAME_INIT;
-  frame.data = pixels.data(), frame.pixel = GLINT_GRAY16;
-  frame.width = kWidth, frame.height = kHeight, frame.time = time;
-  return frame;
-}
 
 void push_clip(glint_engine* engine) {
   for (int f = 0; f < kFrames; ++f) {
@@ -41,10 +22,6 @@ void push_clip(glint_engine* engine) {
     const glint_frame frame = frame_of(pixels, f);
     ASSERT_EQ(glint_push(engine, &frame), GLINT_OK) << glint_last_error();
   }
-}
-
-bool said(const char* part) {
-  return std::string(glint_last_error()).find(part) != std::string::npos;
 }
 
 /// Bytes, so that NaN equals NaN.

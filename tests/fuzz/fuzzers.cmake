@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The fuzzers as programs, by clang's libFuzzer.
-add_custom_target(fuzzers)
 foreach(name IN LISTS fuzzers)
   add_executable(fuzz_${name} ${name}.cpp)
   target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
   target_link_libraries(fuzz_${name} PRIVATE glint_files glint_c_objects)
-  add_dependencies(fuzzers fuzz_${name})
 endforeach()

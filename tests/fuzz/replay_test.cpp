@@ -11,7 +11,7 @@
 // The fuzzers' functions: here each file of them is compiled with a name of its own.
 using Fuzz = int(const std::uint8_t* data, std::size_t size);
 extern "C" {
-Fuzz fuzz_autoferry, fuzz_capi, fuzz_config, fuzz_fits, fuzz_npy, fuzz_points_csv,
+Fuzz fuzz_autoferry, fuzz_capi, fuzz_checkpoint, fuzz_config, fuzz_fits, fuzz_npy, fuzz_points_csv,
     fuzz_points_jsonl, fuzz_raw_format, fuzz_tables;
 }
 
@@ -40,15 +40,15 @@ TEST_P(Corpus, IsReadOrRefused) {
   EXPECT_GT(inputs, 0) << folder;
 }
 
-INSTANTIATE_TEST_SUITE_P(Fuzz, Corpus,
-                         testing::Values(Fuzzer{"autoferry", fuzz_autoferry},
-                                         Fuzzer{"capi", fuzz_capi}, Fuzzer{"config", fuzz_config},
-                                         Fuzzer{"fits", fuzz_fits}, Fuzzer{"npy", fuzz_npy},
-                                         Fuzzer{"points_csv", fuzz_points_csv},
-                                         Fuzzer{"points_jsonl", fuzz_points_jsonl},
-                                         Fuzzer{"raw_format", fuzz_raw_format},
-                                         Fuzzer{"tables", fuzz_tables}),
-                         [](const auto& fuzzer) { return std::string(fuzzer.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Fuzz, Corpus,
+    testing::Values(Fuzzer{"autoferry", fuzz_autoferry}, Fuzzer{"capi", fuzz_capi},
+                    Fuzzer{"checkpoint", fuzz_checkpoint}, Fuzzer{"config", fuzz_config},
+                    Fuzzer{"fits", fuzz_fits}, Fuzzer{"npy", fuzz_npy},
+                    Fuzzer{"points_csv", fuzz_points_csv},
+                    Fuzzer{"points_jsonl", fuzz_points_jsonl},
+                    Fuzzer{"raw_format", fuzz_raw_format}, Fuzzer{"tables", fuzz_tables}),
+    [](const auto& fuzzer) { return std::string(fuzzer.param.name); });
 
 }  // namespace
 }  // namespace glint

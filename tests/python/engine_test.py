@@ -173,3 +173,26 @@ def test_threads_may_push_into_one_engine():
         thread.join()
     engine.drain()
     assert engine.pushed == 80
+
+
+def test_a_restored_engine_goes_on_with_the_same_tracks():
+    whole, first, second = (glint.Engine("smc-phd", seed=3) for _ in range(3))
+    for number, frame in enumerate(clip()):
+        whole.push(frame, number)
+        if number == 12:
+            second.restore(first.checkpoint())
+        (first if number < 12 else second).push(frame, number)
+    whole.finish()
+    second.finish()
+    assert second.revised().tobytes() == whole.revised().tobytes()
+    assert [r.frame for r in results_of(second)] == list(range(FRAMES))
+    with pytest.raises(RuntimeError):
+        second.checkpoint()
+
+
+def test_a_checkpoint_of_other_settings_is_refused():
+    made = glint.Engine("smc-phd", seed=3).checkpoint()
+    with pytest.raises(glint.CheckpointError, match="seed = 3.*seed = 4"):
+        glint.Engine("smc-phd", seed=4).restore(made)
+    with pytest.raises(ValueError, match="checksum"):
+        glint.Engine("smc-phd", seed=3).restore(made[:-1])

@@ -24,11 +24,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _glint
-from ._glint import TRACK, TRUTH, ConfigError, Result
+from ._glint import TRACK, TRUTH, CheckpointError, ConfigError, Result
 
 __all__ = [
     "TRACK",
     "TRUTH",
+    "CheckpointError",
     "ConfigError",
     "Engine",
     "Result",
