@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -33,7 +34,7 @@ auto fields(OneOf<CheckpointLabel> auto& l) {
 std::string_view library_version();
 
 /// Begins a checkpoint: magic, format, room for a checksum over all that follows it, label. The
-/// state comes behind; then seal() gives the bytes.
+/// state comes behind; then seal_checkpoint() gives the bytes.
 ByteWriter begin_checkpoint(const CheckpointLabel& label);
 std::string seal_checkpoint(ByteWriter&& checkpoint);
 
@@ -47,12 +48,15 @@ OpenCheckpoint open_checkpoint(std::string_view bytes);
 /// Throws CheckpointError that says what differs first.
 void require_same(const CheckpointLabel& made, const CheckpointLabel& here);
 
-/// Runs restore(), whose readers refuse bytes by exceptions of many kinds.
+/// Runs restore(), whose readers refuse bytes by exceptions of many kinds. Memory that runs out
+/// says nothing of the bytes.
 template <class Restore>
 void refuse_damaged(const Restore& restore) {
   try {
     restore();
   } catch (const CheckpointError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
     throw CheckpointError("the checkpoint is damaged: " + std::string(e.what()));

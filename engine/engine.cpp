@@ -155,17 +155,12 @@ bool Engine::push(SourceFrame frame) {
   return kept;
 }
 
-std::optional<EngineResult> Engine::poll() {
+std::optional<EngineResult> Engine::poll(const std::function<bool(const EngineResult&)>& wants) {
   const std::scoped_lock lock(mutex_);
-  if (results_.empty()) return std::nullopt;
+  if (results_.empty() || (wants && !wants(results_.front()))) return std::nullopt;
   EngineResult result = std::move(results_.front());
   results_.pop_front();
   return result;
-}
-
-void Engine::put_back(EngineResult result) {
-  const std::scoped_lock lock(mutex_);
-  results_.push_front(std::move(result));
 }
 
 std::string Engine::checkpoint() {
@@ -183,19 +178,23 @@ std::string Engine::checkpoint() {
 }
 
 void Engine::take_state(ByteReader& from) {
-  scheduler_.take_state(from);
-  take_bytes(from, pushed_), take_bytes(from, dropped_), take_bytes(from, results_);
+  scheduler_.take_state(from, Scheduler::After::more);
+  std::int64_t pushed = 0, dropped = 0;
+  std::deque<EngineResult> results;
+  take_bytes(from, pushed), take_bytes(from, dropped), take_bytes(from, results);
   require_bytes(from.left() == 0, "it is too long");
-  require_bytes(dropped_ >= 0 && dropped_ <= pushed_, "the counts of frames do not fit");
-  for (const EngineResult& result : results_) {
+  require_frame_number(pushed);
+  require_bytes(dropped >= 0 && dropped <= pushed, "the counts of frames do not fit");
+  for (const EngineResult& result : results) {
     require_bytes(result.tracks.size() == scheduler_.logs().size(),
                   "a result is not of these trackers");
   }
-  settled_ = pushed_;
+  pushed_ = settled_ = pushed, dropped_ = dropped, results_ = std::move(results);
 }
 
 void Engine::restore(std::string_view checkpoint) {
   const std::scoped_lock lock(mutex_);
+  rethrow();
   if (pushed_ > 0 || closed_) throw std::logic_error("restore() before the first push()");
   OpenCheckpoint open = open_checkpoint(checkpoint);
   require_same(open.label, scheduler_.label("Engine"));
@@ -210,7 +209,7 @@ void Engine::restore(std::string_view checkpoint) {
 void Engine::drain() {
   std::unique_lock lock(mutex_);
   const std::int64_t goal = pushed_;
-  changed_.wait(lock, [&] { return ended_ || settled_ >= goal; });
+  changed_.wait(lock, [&] { return ended_ || error_ || settled_ >= goal; });
   rethrow();
 }
 

@@ -66,10 +66,9 @@ class Engine {
   /// Frames that hold points, alone or beside pixels, come in here too.
   bool push(SourceFrame frame);
 
-  /// The next result, if there is one by now.
-  std::optional<EngineResult> poll();
-  /// Makes a polled result the next one again.
-  void put_back(EngineResult result);
+  /// The next result, if there is one by now. One that `wants` (which must not call the engine)
+  /// says no to stays the next one.
+  std::optional<EngineResult> poll(const std::function<bool(const EngineResult&)>& wants = {});
   /// Waits until every frame that was pushed is tracked. Throws what ended the engine.
   void drain();
   /// Drains, then lets the trackers say what they still hold; the logs are whole after that.
@@ -83,7 +82,7 @@ class Engine {
   /// Before the first push(): goes on from the checkpoint() of an engine whose trackers, settings
   /// (Scheduler::set_settings()) and kind of device are the same, as if nothing had come between.
   /// Throws std::logic_error after a push(), and CheckpointError for bytes that are damaged or do
-  /// not fit; make another engine then: this one may have ended.
+  /// not fit; make another engine then: this one has ended.
   void restore(std::string_view checkpoint);
 
   /// Tracks and notes; not to be looked into between a push() and the drain() or finish() after it.

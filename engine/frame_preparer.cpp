@@ -108,8 +108,9 @@ struct FramePreparer::State {
 Kept FramePreparer::State::stage(const RawPixels& raw) const {
   check(raw);
   return std::visit(
-      [&](const auto* data) {
-        return device.stage(ImageView{data, raw.width * raw.channels, raw.height, raw.pitch});
+      [&]<class T>(const T* data) {
+        return device.stage(
+            ImageView<const T>{data, raw.width * raw.channels, raw.height, raw.pitch});
       },
       raw.data);
 }
@@ -288,6 +289,8 @@ void FramePreparer::save(ByteWriter& to) const {
 
 void FramePreparer::restore(ByteReader& from) {
   take_bytes(from, *state_);
+  state_->background = {}, state_->structure = {}, state_->noise = {};  // those of a primed one
+  state_->noise_step = 1;
   state_->model->restore(from, state_->width, state_->height);
   state_->model->rewrite();
 }

@@ -74,6 +74,8 @@ void RegisteredBackground::restore(ByteReader& from, int width, int height) {
   require_bytes(samples_.size() <= slots_ && next_ < slots_ &&
                     (samples_.size() == slots_ || next_ == samples_.size()),
                 "the background has no such sample");
+  require_frame_number(now_), require_frame_number(compared_), require_frame_number(shifted_);
+  moved_.clear(), present_ = {};
   for (Pyramid& sample : samples_) {
     const KeptImage<float> finest = std::move(sample.levels.front());
     require_bytes(finest.width() == width && finest.height() == height && width > 0,

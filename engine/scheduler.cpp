@@ -228,13 +228,14 @@ void Scheduler::put_state(ByteWriter& to) const {
   for (const Lane& lane : s.lanes) lane.tracker->save(to), put_bytes(to, lane.log);
 }
 
-void Scheduler::take_state(ByteReader& from) {
+void Scheduler::take_state(ByteReader& from, After after) {
   State& s = *state_;
   s.started = s.finished = true;  // if this fails: half a state is no use
   take_bytes(from, s.next_frame), take_bytes(from, s.delivered);
-  require_frame_number(s.next_frame);
+  require_frame_number(s.next_frame), require_frame_number(s.delivered);
   s.preparer.restore(from);
   for (Lane& lane : s.lanes) lane.tracker->restore(from), take_bytes(from, lane.log);
+  require_bytes(after == After::more || from.left() == 0, "it is too long");
   s.started = s.finished = false;
 }
 
@@ -248,10 +249,7 @@ void Scheduler::restore(std::string_view checkpoint) {
   if (state_->started) throw std::logic_error("restore() before the first frame");
   OpenCheckpoint open = open_checkpoint(checkpoint);
   require_same(open.label, label("Scheduler"));
-  refuse_damaged([&] {
-    take_state(open.state);
-    require_bytes(open.state.left() == 0, "it is too long");
-  });
+  refuse_damaged([&] { take_state(open.state, After::nothing); });
 }
 
 const std::vector<const TrackLog*>& Scheduler::logs() const { return state_->logs; }

@@ -117,7 +117,8 @@ class Scheduler {
  private:
   friend class Engine;
   void put_state(ByteWriter& to) const;
-  void take_state(ByteReader& from);
+  enum class After { nothing, more };  ///< what may follow the state
+  void take_state(ByteReader& from, After after);
   CheckpointLabel label(std::string maker) const;
 
   struct State;

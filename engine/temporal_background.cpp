@@ -44,6 +44,7 @@ void TemporalBackground::learn(const BackgroundInput& input) {
 
 void TemporalBackground::restore(ByteReader& from, int width, int height) {
   take_bytes(from, *this);
+  require_frame_number(now_);
   const auto check = [&](auto& samples) {
     require_bytes(samples.images.size() == static_cast<std::size_t>(times_.size()),
                   "the background lacks a sample");

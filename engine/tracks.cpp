@@ -117,11 +117,15 @@ void TrackTable::put_to(ByteWriter& to) const {
 }
 
 void TrackTable::take_from(ByteReader& from) {
-  *this = {};
+  forget(std::numeric_limits<std::int64_t>::max());  // the room stays
   take_bytes(from, forgotten_);
-  for (std::size_t left = from.count(); left > 0; --left) {
-    TrackPoint point;
+  const auto place = [](const TrackPoint& p) { return std::pair(p.frame, p.track_id); };
+  TrackPoint point, before;
+  for (std::size_t left = from.count(), first = left; left > 0; --left, before = point) {
     take_bytes(from, point);
+    require_frame_number(point.frame);
+    require_bytes(left == first || place(before) < place(point),
+                  "points of tracks are not in order");
     put(point);
   }
 }

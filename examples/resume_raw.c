@@ -6,6 +6,7 @@
  *     head -c 65536000 frames | ./resume_raw 640 512 mm-phd STATE
  *     tail -c +65536001 frames | ./resume_raw 640 512 mm-phd STATE
  */
+#include <errno.h>
 #include <glint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,58 +16,76 @@ static int fail(const char *what) {
   return 1;
 }
 
-/* The file's bytes, to be freed; NULL if there is no such file. */
-static void *read_file(const char *path, size_t *size) {
-  FILE *file = fopen(path, "rb");
+/* The file's bytes, to be freed; NULL if they cannot be read. */
+static void *read_all(FILE *file, size_t *size) {
   void *bytes = NULL;
-  if (file == NULL) return NULL;
-  if (fseek(file, 0, SEEK_END) == 0 && ftell(file) > 0) {
-    *size = (size_t)ftell(file);
-    bytes = malloc(*size);
-    rewind(file);
-    if (bytes != NULL && fread(bytes, 1, *size, file) != *size) *size = 0;
-  }
-  fclose(file);
-  return bytes;
+  long length;
+  if (fseek(file, 0, SEEK_END) != 0 || (length = ftell(file)) < 0) return NULL;
+  rewind(file);
+  bytes = malloc((size_t)length + 1); /* an empty file is no state, and is told so */
+  if (bytes == NULL) return NULL;
+  *size = fread(bytes, 1, (size_t)length, file);
+  if (*size == (size_t)length) return bytes;
+  free(bytes);
+  return NULL;
 }
 
-/* A new engine, or one that goes on. */
-static glint_status open_engine(const glint_options *options, const char *path,
-                                glint_engine **engine) {
+/* A new engine if there is no such file, or one that goes on; NULL on failure. */
+static glint_engine *open_engine(const glint_options *options, const char *path) {
+  glint_engine *engine = NULL;
+  FILE *file = fopen(path, "rb");
+  void *state;
   size_t size = 0;
-  void *state = read_file(path, &size);
-  const glint_status status =
-      state == NULL ? glint_create(options, engine) : glint_restore(options, state, size, engine);
+  if (file == NULL && errno == ENOENT) {
+    if (glint_create(options, &engine) != GLINT_OK) fail("create");
+    return engine;
+  }
+  state = file == NULL ? NULL : read_all(file, &size);
+  if (file != NULL) fclose(file);
+  if (state == NULL) {
+    fprintf(stderr, "cannot read %s\n", path);
+    return NULL;
+  }
+  if (glint_restore(options, state, size, &engine) != GLINT_OK) fail(path);
   free(state);
-  return status;
+  return engine;
 }
 
+/* Under another name first: whenever this is cut off, a whole state is there. */
 static int save(glint_engine *engine, const char *path) {
+  char fresh[4096];
   void *state;
   size_t size, written = 0;
   FILE *file;
   if (glint_checkpoint(engine, &state, &size) != GLINT_OK) return fail("checkpoint");
-  file = fopen(path, "wb");
+  if (snprintf(fresh, sizeof fresh, "%s.new", path) >= (int)sizeof fresh) {
+    fprintf(stderr, "%s is too long a name\n", path);
+    glint_free(state);
+    return 1;
+  }
+  file = fopen(fresh, "wb");
   if (file != NULL) {
     written = fwrite(state, 1, size, file);
     if (fclose(file) != 0) written = 0;
   }
   glint_free(state);
-  if (written == size) return 0;
-  fprintf(stderr, "cannot write %s\n", path);
+  if (written == size && rename(fresh, path) == 0) return 0;
+  fprintf(stderr, "cannot write %s\n", fresh);
   return 1;
 }
 
-static void print_results(glint_engine *engine) {
+static glint_status print_results(glint_engine *engine) {
   static glint_track tracks[1000];
   glint_result result = GLINT_RESULT_INIT;
-  while (glint_poll(engine, &result, tracks, 1000) == GLINT_OK) {
+  glint_status status;
+  while ((status = glint_poll(engine, &result, tracks, 1000)) == GLINT_OK) {
     size_t i;
     for (i = 0; i < result.tracks; ++i) {
       printf("%lld %lld %.17g %.17g\n", (long long)tracks[i].frame, (long long)tracks[i].track_id,
              tracks[i].x, tracks[i].y);
     }
   }
+  return status;
 }
 
 int main(int argc, char **argv) {
@@ -90,7 +109,8 @@ int main(int argc, char **argv) {
     return 2;
   }
   options.tracker = argv[3];
-  if (open_engine(&options, argv[4], &engine) != GLINT_OK) return fail(argv[4]);
+  engine = open_engine(&options, argv[4]);
+  if (engine == NULL) return 1;
 
   bytes = (size_t)frame.width * (size_t)frame.height * 2;
   pixels = malloc(bytes);
@@ -101,7 +121,7 @@ int main(int argc, char **argv) {
     if (glint_push(engine, &frame) != GLINT_OK) break;
   }
   if (glint_drain(engine) != GLINT_OK) return fail("track");
-  print_results(engine);
+  if (print_results(engine) != GLINT_NOTHING) return fail("poll");
   result = save(engine, argv[4]);
   free(pixels);
   glint_destroy(engine);

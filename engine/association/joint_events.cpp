@@ -2,6 +2,7 @@
 #include "glint/engine/association/joint_events.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -56,6 +57,9 @@ void JointGroups::restored() const {
   require_bytes(
       target == all_.targets.size() && choice == all_.choice.size() && event == all_.weight.size(),
       "joint events are not whole");
+  require_bytes(
+      std::ranges::all_of(all_.weight, [](double w) { return w >= 0 && std::isfinite(w); }),
+      "a joint event has no such weight");
 }
 
 void JointGroups::add(const JointView& group) {

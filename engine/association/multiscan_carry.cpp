@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the joint events of a scan become those that the next one begins with.
 #include <algorithm>
+#include <cmath>
 
 #include "glint/engine/association/multiscan_jpda.hpp"
 #include "glint/engine/bytes.hpp"
@@ -111,18 +112,21 @@ void MultiscanJpda::split(JointEvents& events) {
   }
 }
 
-/// Every target is in one group, which names hypotheses that it has.
+/// Every target is in one group, which names hypotheses that it has, and no more events than are
+/// carried: groups that meet are multiplied.
 void MultiscanJpda::restored() const {
   require_bytes(children_.size() == prior_.size(), "hypotheses are not whole");
   for (const Range& own : own_) {
-    require_bytes(
-        own.count > 0 && own.first <= prior_.size() && own.count <= prior_.size() - own.first,
-        "a target has no such hypotheses");
+    require_bytes(own.count > 0 && own.count <= settings_.events && own.first <= prior_.size() &&
+                      own.count <= prior_.size() - own.first,
+                  "a target has no such hypotheses");
   }
   std::size_t grouped = 0;
   std::vector<bool> seen(targets());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const JointView group = groups_[g];
+    require_bytes(group.size() > 0 && group.size() <= settings_.events,
+                  "a group has no such number of events");
     for (std::size_t c = 0; c < group.targets.size(); ++c, ++grouped) {
       const std::uint32_t t = group.targets[c];
       require_bytes(t < targets() && !seen[t] && (c == 0 || group.targets[c - 1] < t),
@@ -134,6 +138,8 @@ void MultiscanJpda::restored() const {
     }
   }
   require_bytes(grouped == targets(), "a target is in no group");
+  require_bytes(std::ranges::all_of(prior_, [](double p) { return p >= 0 && std::isfinite(p); }),
+                "a hypothesis has no such probability");
   for (const Bond& bond : bonds_) {
     require_bytes(bond.a < targets() && bond.b < targets(), "a bond has no such target");
   }

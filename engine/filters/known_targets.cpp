@@ -23,8 +23,11 @@ KnownTargets::KnownTargets(const KnownTargetsConfig& config, const MotionBank& b
 /// Boxes of pixels are made of where it is.
 void KnownTarget::restored() const {
   constexpr double kFar = 1e6;  // [px]
+  constexpr int kMany = 1 << 30;
   require_bytes(std::abs(estimate.x) < kFar && std::abs(estimate.y) < kFar, "a target is nowhere");
-  require_frame_number(detected);
+  require_frame_number(detected), require_frame_number(first_missed);
+  require_bytes(hits >= 0 && hits < kMany && misses >= 0 && misses < kMany,
+                "a target was not seen that often");
 }
 
 void KnownTargets::restored() const {

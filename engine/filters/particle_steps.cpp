@@ -51,6 +51,10 @@ void require_particles(const Particles& particles, std::size_t modes) {
         require_bytes(((array.size() == particles.size()) && ...), "a particle is not whole");
       },
       Particles::fields(particles));
+  const auto somewhere = [](float v) { return std::abs(v) < 1e9F; };  // not so NaN
+  for (const auto* values : {&particles.x, &particles.y, &particles.vx, &particles.vy}) {
+    require_bytes(std::ranges::all_of(*values, somewhere), "a particle is nowhere");
+  }
   require_bytes(std::ranges::all_of(particles.mode, [&](auto mode) { return mode < modes; }),
                 "a particle has no such motion model");
   require_bytes(

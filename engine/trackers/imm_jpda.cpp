@@ -38,6 +38,7 @@ void ImmJpda::restored() const {
   for (const Crew* crew : {&confirmed_, &tentative_}) {
     crew->window.require_alike(bank);
     require_bytes(crew->window.targets() == crew->tracks.size(), "tracks and targets do not fit");
+    for (const PointTrack& track : crew->tracks) require_frame_number(track.last_seen);
   }
 }
 

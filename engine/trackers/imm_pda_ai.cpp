@@ -138,6 +138,7 @@ void ImmPdaAi::restored() {
   require_frame_number(last_frame_);
   const Imm bank = bank_at({0, 0, 0, 0});
   for (const Track& track : tracks_) {
+    require_frame_number(track.last_seen);
     require_bytes(track.imm.alike(bank), "a target moves by other models");
   }
 }

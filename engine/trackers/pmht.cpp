@@ -38,6 +38,7 @@ template <class Config, class Bank>
 void PmhtTracker<Config, Bank>::restored() const {
   const Bank bank = bank_of(config_, PmhtStart{{0, 0}, {0, 0}}, seed_, 0);
   for (const Track& track : tracks_) {
+    require_frame_number(track.last_seen);
     require_bytes(track.bank.alike(bank), "a target moves by other models");
   }
 }

@@ -26,6 +26,7 @@ void Viterbi::restored() const {
                 "the window is not whole");
   for (const Track& track : tracks_) {
     require_bytes(!track.points.empty(), "a track has no points");
+    for (const TrackPoint& point : track.points) require_frame_number(point.frame);
   }
 }
 

@@ -35,8 +35,7 @@ struct glint_engine {
       : engine(std::move(scheduler), settings) {}
   Engine engine;
   std::mutex mutex;
-  std::optional<EngineResult> held;  // that did not fit at the last call
-  bool finished = false;
+  bool finished = false;  // under mutex
 };
 
 namespace {
@@ -88,22 +87,19 @@ std::unique_ptr<glint_engine> created(const glint_options* options) {
   }
 }
 
-/// A result that was polled and did not fit is still to be polled.
-std::string checkpoint_of(glint_engine& handle) {
-  const std::scoped_lock lock(handle.mutex);
-  if (handle.held) handle.engine.put_back(*std::exchange(handle.held, std::nullopt));
-  return handle.engine.checkpoint();
-}
-
 glint_status poll(glint_engine& handle, glint_result& given, glint_track* tracks,
                   std::size_t capacity) {
   glint_result result = taken(&given, GLINT_RESULT_INIT, "");
-  const std::scoped_lock lock(handle.mutex);
-  if (!handle.held) handle.held = handle.engine.poll();
-  if (!handle.held) return GLINT_NOTHING;
-  result.frame = handle.held->frame, result.time = handle.held->time;
-  result.latency = handle.held->latency, result.tracks = 0;
-  for (const auto& points : handle.held->tracks) result.tracks += points.size();
+  bool any = false;
+  const auto fits = [&](const EngineResult& next) {
+    any = true;
+    result.frame = next.frame, result.time = next.time;
+    result.latency = next.latency, result.tracks = 0;
+    for (const auto& points : next.tracks) result.tracks += points.size();
+    return result.tracks <= capacity && (tracks != nullptr || result.tracks == 0);
+  };
+  const std::optional<EngineResult> taken_out = handle.engine.poll(fits);
+  if (!any) return GLINT_NOTHING;
   std::memcpy(&given, &result, std::min(given.struct_size, sizeof(result)));
   if (result.tracks > capacity) {
     last_error = "the frame has " + std::to_string(result.tracks) +
@@ -113,16 +109,15 @@ glint_status poll(glint_engine& handle, glint_result& given, glint_track* tracks
   }
   require(tracks != nullptr || result.tracks == 0, "tracks is NULL");
   Tracks out(tracks, result.track_size);
-  for (std::size_t i = 0; i < handle.held->tracks.size(); ++i) {
-    for (const TrackPoint& p : handle.held->tracks[i]) out.put(p, i);
+  for (std::size_t i = 0; i < taken_out->tracks.size(); ++i) {
+    for (const TrackPoint& p : taken_out->tracks[i]) out.put(p, i);
   }
-  handle.held.reset();
   return GLINT_OK;
 }
 
 }  // namespace
 
-const char* glint_version(void) { return GLINT_VERSION; }
+const char* glint_version(void) { return library_version().data(); }
 
 const char* glint_last_error(void) { return last_error.c_str(); }
 
@@ -272,7 +267,7 @@ glint_status glint_checkpoint(glint_engine* engine, void** data, size_t* size) {
     require(engine != nullptr, "engine is NULL");
     require(data != nullptr && size != nullptr, "data or size is NULL");
     *data = nullptr, *size = 0;
-    const std::string bytes = checkpoint_of(*engine);
+    const std::string bytes = engine->engine.checkpoint();
     *data = std::malloc(bytes.size());
     if (*data == nullptr) throw std::bad_alloc();
     std::memcpy(*data, bytes.data(), bytes.size());

@@ -97,7 +97,8 @@ void add_engine(py::module_& m) {
           "checkpoint"_a,
           "Before the first push: go on from the checkpoint of an engine with the same settings,\n"
           "as if it had never stopped. Raises CheckpointError (a ValueError) for one that is\n"
-          "damaged or of other settings, another version or kind of device.")
+          "damaged or of other settings, another version or kind of device: make another engine\n"
+          "then. Raises RuntimeError after a push.")
       .def("drain", &PushEngine::drain,
            "Wait until every frame that was pushed is done. Raises what ended the engine.")
       .def("finish", &PushEngine::finish,

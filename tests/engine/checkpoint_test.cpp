@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <thread>
 
 #include "checkpoint_clip.hpp"
 #include "egl.hpp"
@@ -156,6 +157,36 @@ TEST_P(Checkpoint, RefusesBytesThatEndEarlyWhateverTheirChecksum) {
   EXPECT_NE(refusal(GetParam(), resealed(open.label, state + '\0')), "");
 }
 
+// Places all over the state, one at a time: refused, or taken for a true value, which may give
+// nonsense. The sanitizers see whether memory is then used that must not be.
+TEST_P(Checkpoint, AWrongByteIsRefusedOrTaken) {
+  const std::string bytes = checkpoint_at(GetParam(), scene_, 9);
+  const OpenCheckpoint open = open_checkpoint(bytes);
+  const std::string state = bytes.substr(bytes.size() - open.state.left());
+  constexpr std::size_t kPlaces = 97;
+  int refused = 0;
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const std::size_t at = i < kPlaces / 2 ? 7 + 8 * i : state.size() * i / kPlaces;
+    std::string wrong = state;
+    wrong[std::min(at, state.size() - 1)] ^= '\x83';
+    Scheduler next = checkpoint_scheduler(GetParam(), Device::tbb(1));
+    try {
+      next.restore(resealed(open.label, wrong));
+    } catch (const CheckpointError&) {
+      ++refused;
+      EXPECT_THROW(track(next, checkpoint_frame(GetParam(), scene_, 9)), std::logic_error);
+      continue;
+    }
+    try {
+      for (int f = 9; f < 12; ++f) track(next, checkpoint_frame(GetParam(), scene_, f));
+    } catch (const std::exception& e) {
+      EXPECT_NE(std::string(e.what()), "");
+    }
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_LT(refused, static_cast<int>(kPlaces));
+}
+
 struct CheckpointLabels : testing::Test {
   CheckpointCase c{"smc-phd", {{"existence", "0.4"}}};
   std::string bytes = checkpoint_at(c, checkpoint_scene(), 2);
@@ -218,9 +249,10 @@ TEST_F(CheckpointLabels, AnEngineGoesOnWithItsCountsAndWaitingResults) {
   }
   const auto held = [&](Engine& engine) {
     engine.drain();
-    auto result = engine.poll();
-    EXPECT_EQ(result->frame, 0);
-    engine.put_back(std::move(*result));
+    std::int64_t next = -1;
+    const auto look = [&](const EngineResult& result) { return next = result.frame, false; };
+    EXPECT_FALSE(engine.poll(look));
+    EXPECT_EQ(next, 0);
   };
   held(first);
   Engine second(checkpoint_scheduler(c, Device::tbb(1)));
@@ -238,6 +270,58 @@ TEST_F(CheckpointLabels, AnEngineGoesOnWithItsCountsAndWaitingResults) {
   EXPECT_THROW(third.restore(bytes), CheckpointError);  // of a Scheduler
 }
 
+// Each checkpoint is of some number of whole frames.
+TEST_F(CheckpointLabels, FramesMayBePushedMeanwhile) {
+  const Scene scene = checkpoint_scene();
+  Engine whole(checkpoint_scheduler(c, Device::tbb(2)));
+  std::vector<std::string> taken;
+  std::thread pusher([&] {
+    for (int f = 0; f < scene.frames; ++f) whole.push(checkpoint_frame(c, scene, f));
+  });
+  do {
+    taken.push_back(whole.checkpoint());
+    while (whole.poll()) {
+    }
+  } while (whole.pushed() < scene.frames);
+  pusher.join();
+  whole.finish();
+  for (const std::string& some : taken) {
+    Engine next(checkpoint_scheduler(c, Device::tbb(1)));
+    next.restore(some);
+    for (auto f = static_cast<int>(next.pushed()); f < scene.frames; ++f) {
+      next.push(checkpoint_frame(c, scene, f));
+    }
+    next.finish();
+    ASSERT_EQ(next.scheduler().logs()[0]->text(), whole.scheduler().logs()[0]->text());
+  }
+}
+
+// The order of its trackers is part of it, and frames that both hold are one.
+TEST_F(CheckpointLabels, TwoTrackersGoOnTogether) {
+  const Scene scene = checkpoint_scene();
+  const CheckpointCase clip{"h-pmht", {}, background("registered")};
+  const auto both = [&](const Device& device) {
+    Scheduler scheduler = checkpoint_scheduler(clip, device);
+    const TrackerEntry& entry = find_tracker("viterbi");
+    scheduler.add(entry.make(entry.config(), device, 3), "viterbi");
+    return scheduler;
+  };
+  Scheduler whole = both(Device::tbb(2));
+  for (int f = 0; f < 9; ++f) track(whole, checkpoint_frame(clip, scene, f));
+  Scheduler next = both(Device::tbb(1));
+  const std::string at_nine = whole.checkpoint();
+  next.restore(at_nine);
+  next.restore(at_nine);  // instead of the first
+  for (int f = 9; f < scene.frames; ++f) {
+    track(whole, checkpoint_frame(clip, scene, f)), track(next, checkpoint_frame(clip, scene, f));
+  }
+  whole.finish(), next.finish();
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(next.logs()[i]->text(), whole.logs()[i]->text()) << i;
+    EXPECT_FALSE(whole.logs()[i]->revised().empty()) << i;
+  }
+}
+
 // Half a state is no use.
 TEST_F(CheckpointLabels, AFailedRestoreEndsItsEngineAndScheduler) {
   const Scene scene = checkpoint_scene();
@@ -249,13 +333,19 @@ TEST_F(CheckpointLabels, AFailedRestoreEndsItsEngineAndScheduler) {
   const std::string cut = resealed(open.label, state.substr(0, state.size() - 1));
   Engine engine(checkpoint_scheduler(c, Device::tbb(1)));
   EXPECT_THROW(engine.restore(cut), CheckpointError);
+  EXPECT_EQ(engine.pushed(), 0);
+  EXPECT_THROW(engine.drain(), CheckpointError);
+  EXPECT_THROW(engine.restore(whole), CheckpointError);
   EXPECT_THROW(engine.push(checkpoint_frame(c, scene, 1)), CheckpointError);
   EXPECT_THROW(engine.finish(), CheckpointError);
 
   const OpenCheckpoint pulled = open_checkpoint(bytes);
-  Scheduler scheduler = checkpoint_scheduler(c, Device::tbb(1));
-  EXPECT_THROW(scheduler.restore(resealed(pulled.label, "")), CheckpointError);
-  EXPECT_THROW(track(scheduler, checkpoint_frame(c, scene, 0)), std::logic_error);
+  const std::string longer = bytes.substr(bytes.size() - pulled.state.left()) + '\0';
+  for (const std::string& wrong : {std::string(), longer}) {
+    Scheduler scheduler = checkpoint_scheduler(c, Device::tbb(1));
+    EXPECT_THROW(scheduler.restore(resealed(pulled.label, wrong)), CheckpointError);
+    EXPECT_THROW(track(scheduler, checkpoint_frame(c, scene, 0)), std::logic_error);
+  }
 }
 
 }  // namespace
