@@ -191,7 +191,7 @@ Image<T> take_image(ByteReader& from) {
 template <bool kWholeStructs, class T>
 void put_bytes(ByteWriter& to, const T& value) {
   const auto put = [&to](const auto& part) { put_bytes<kWholeStructs>(to, part); };
-  if constexpr (detail::Number<T>) {
+  if constexpr (detail::Number<T>) {  // NOLINT(bugprone-branch-clone): their order counts
     to.raw(&value, sizeof value);
   } else if constexpr (OwnBytes<T>) {
     value.put_to(to);
