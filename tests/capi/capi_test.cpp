@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -25,7 +26,9 @@ void push_clip(glint_engine* engine) {
 }
 
 /// Bytes, so that NaN equals NaN.
-bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 
 void expect_same(const glint_track& a, const TrackPoint& b) {
   EXPECT_EQ(a.frame, b.frame);
