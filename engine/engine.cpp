@@ -14,12 +14,15 @@ class Engine::Queue : public Source {
  public:
   explicit Queue(Engine& engine) : engine_(engine) {}
   std::optional<SourceFrame> next() override {
-    const std::scoped_lock lock(engine_.mutex_);
+    std::unique_lock lock(engine_.mutex_);
     if (engine_.waiting_.empty() || engine_.abandoned_) return std::nullopt;
     Waiting first = std::move(engine_.waiting_.front());
     engine_.waiting_.pop_front();
     engine_.at_work_.push_back(first.pushed);
-    engine_.changed_.notify_all();
+    const bool room = engine_.full_ && engine_.waiting_.size() <= engine_.settings_.queue * 3 / 4;
+    if (room) engine_.full_ = false;
+    lock.unlock();
+    if (room) engine_.room_.notify_all();
     return std::move(first.frame);
   }
 
@@ -41,10 +44,12 @@ class Engine::Results : public Sink {
       engine_.at_work_.pop_front();
     }
     if (engine_.settings_.on_result) engine_.settings_.on_result(result);
-    const std::scoped_lock lock(engine_.mutex_);
-    if (!engine_.settings_.on_result) engine_.results_.push_back(std::move(result));
-    ++engine_.settled_;
-    engine_.changed_.notify_all();
+    {
+      const std::scoped_lock lock(engine_.mutex_);
+      if (!engine_.settings_.on_result) engine_.results_.push_back(std::move(result));
+      ++engine_.settled_;
+    }
+    engine_.settled_or_idle_.notify_all();
   }
 
  private:
@@ -111,15 +116,15 @@ void Engine::work() {
   if (!error_) error_ = error;  // a restore() that failed comes first
   ended_ = true;
   waiting_.clear();
-  changed_.notify_all();
+  room_.notify_all(), settled_or_idle_.notify_all();
 }
 
 /// False at the end.
 bool Engine::wait_for_frames() {
   std::unique_lock lock(mutex_);
   idle_ = true;
-  changed_.notify_all();
-  changed_.wait(lock, [&] { return !waiting_.empty() || closed_; });
+  settled_or_idle_.notify_all();
+  frames_.wait(lock, [&] { return !waiting_.empty() || closed_; });
   idle_ = false;
   return !waiting_.empty() && !abandoned_;
 }
@@ -134,10 +139,7 @@ bool Engine::push(const RawPixels& pixels, double time) {
 bool Engine::push(SourceFrame frame) {
   std::unique_lock lock(mutex_);
   const bool waits = settings_.when_full == EngineSettings::WhenFull::wait;
-  changed_.wait(lock, [&] {
-    const bool room = !waits || waiting_.size() < settings_.queue;
-    return ended_ || closed_ || (room && checkpoints_ == 0);
-  });
+  room_.wait(lock, [&] { return ended_ || closed_ || (checkpoints_ == 0 && !(waits && full_)); });
   rethrow();
   if (closed_) throw std::logic_error("push() after finish(): make another engine");
   bool kept = true;
@@ -150,8 +152,11 @@ bool Engine::push(SourceFrame frame) {
     kept = false;
   }
   waiting_.push_back({std::move(frame), Clock::now()});
+  full_ = waiting_.size() >= settings_.queue;
   ++pushed_;
-  changed_.notify_all();
+  lock.unlock();
+  frames_.notify_one();
+  if (!kept) settled_or_idle_.notify_all();
   return kept;
 }
 
@@ -166,9 +171,9 @@ std::optional<EngineResult> Engine::poll(const std::function<bool(const EngineRe
 std::string Engine::checkpoint() {
   std::unique_lock lock(mutex_);
   ++checkpoints_;
-  changed_.wait(lock, [&] { return ended_ || (idle_ && waiting_.empty()); });
+  settled_or_idle_.wait(lock, [&] { return ended_ || (idle_ && waiting_.empty()); });
   --checkpoints_;
-  changed_.notify_all();  // whoever is woken waits for the lock
+  room_.notify_all();  // whoever is woken waits for the lock
   rethrow();
   if (closed_) throw std::logic_error("a finished engine has no checkpoint: take it before");
   ByteWriter to = begin_checkpoint(scheduler_.label("Engine"));
@@ -209,21 +214,21 @@ void Engine::restore(std::string_view checkpoint) {
 void Engine::drain() {
   std::unique_lock lock(mutex_);
   const std::int64_t goal = pushed_;
-  changed_.wait(lock, [&] { return ended_ || error_ || settled_ >= goal; });
+  settled_or_idle_.wait(lock, [&] { return ended_ || error_ || settled_ >= goal; });
   rethrow();
 }
 
 void Engine::finish() {
   close();
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return ended_; });
+  settled_or_idle_.wait(lock, [&] { return ended_; });
   rethrow();
 }
 
 void Engine::close() {
   const std::scoped_lock lock(mutex_);
   closed_ = true;
-  changed_.notify_all();
+  room_.notify_all(), frames_.notify_all();
 }
 
 void Engine::rethrow() const {

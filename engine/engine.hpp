@@ -35,7 +35,7 @@ struct EngineResult {
 
 struct EngineSettings {
   enum class WhenFull {
-    wait,         ///< push() waits until there is room: every frame is tracked
+    wait,         ///< push() waits until a quarter is free: every frame is tracked
     drop_oldest,  ///< the frame that has waited longest is dropped: what is tracked is recent
   };
   std::size_t queue = 8;  ///< frames that may wait, at least 1
@@ -110,12 +110,17 @@ class Engine {
   std::unique_ptr<Source> source_;
   std::unique_ptr<Sink> sink_;
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  // One for each kind of waiting, told after the mutex is let go of where a frame passes: whoever
+  // is woken for nothing takes a core from the kernels.
+  std::condition_variable room_;             // push() waits for it
+  std::condition_variable frames_;           // thread_ waits for them
+  std::condition_variable settled_or_idle_;  // drain(), finish() and checkpoint() wait for it
   std::deque<Waiting> waiting_;
   std::deque<Clock::time_point> at_work_;  // when their frames were pushed
   std::deque<EngineResult> results_;
   std::int64_t pushed_ = 0, dropped_ = 0, settled_ = 0;  // settled_: tracked or dropped
   int checkpoints_ = 0;                                  // that wait for the frames at work
+  bool full_ = false;  // until a quarter of the queue is free: one waking serves several frames
   bool idle_ = false;  // nothing touches scheduler_ until a frame waits
   bool closed_ = false, abandoned_ = false, ended_ = false;
   std::exception_ptr error_;

@@ -132,6 +132,23 @@ TEST_P(EngineTest, AFullQueueHoldsThePusherBack) {
   EXPECT_EQ(held->dropped(), 0);
 }
 
+TEST_P(EngineTest, EveryPusherOfAFullQueueGoesOn) {
+  constexpr std::int64_t kPushers = 4, kEach = 50;
+  EngineSettings settings;
+  settings.queue = 5;
+  const auto shared = engine(settings);
+  std::vector<std::future<void>> pushers;
+  for (std::int64_t i = 0; i < kPushers; ++i) {
+    pushers.push_back(std::async(std::launch::async, [&] {
+      for (std::int64_t f = 0; f < kEach; ++f) shared->push(Picture(f).raw, 0);
+    }));
+  }
+  for (auto& pusher : pushers) pusher.get();
+  shared->finish();
+  EXPECT_EQ(shared->scheduler().frames(), kPushers * kEach);
+  EXPECT_EQ(shared->dropped(), 0);
+}
+
 // Frame numbers go on counting, so that trackers know how much time has passed.
 TEST_P(EngineTest, AFullQueueDropsTheOldestIfTold) {
   Gate gate;
