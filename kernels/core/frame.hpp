@@ -68,7 +68,9 @@ class Image {
  private:
   // The left margin of a row is the right padding of the row above it.
   static constexpr std::size_t kLine = 64 / sizeof(T) * ((kImageMargin * sizeof(T) + 63) / 64);
-  std::size_t origin() const { return kImageMargin * static_cast<std::size_t>(pitch_) + kLine; }
+  std::size_t origin() const {
+    return storage_.empty() ? 0 : kImageMargin * static_cast<std::size_t>(pitch_) + kLine;
+  }
 
   int width_ = 0, height_ = 0;
   std::ptrdiff_t pitch_ = 0;

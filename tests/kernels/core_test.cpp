@@ -55,6 +55,10 @@ TEST(Image, HasAMarginOfZerosOnEverySide) {
 }
 
 TEST(Image, TakesEmptyAndRefusesNegativeSizes) {
+  Image<float> none;
+  const Image<float>& seen = none;
+  EXPECT_EQ(none.view().data, nullptr);
+  EXPECT_EQ(seen.view().data, nullptr);
   EXPECT_TRUE(Image<float>(0, 0).view().empty());
   EXPECT_TRUE(Image<float>(0, 9).view().empty());
   EXPECT_THROW(Image<float>(-1, 3), std::invalid_argument);
