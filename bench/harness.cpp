@@ -16,6 +16,7 @@ constexpr double kSampleSeconds = 3e-3;
 constexpr double kMinShare = 0.95;  // of a sample that its thread must have had a core
 constexpr int kMaxTries = 4;
 constexpr int kMinRounds = 3;
+constexpr double kMiddle = 0.5, kLowerQuarter = 0.25;
 
 double now() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
@@ -75,18 +76,20 @@ void sample(const Case& c, Probe& probe, Samples& samples) {
   }
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double quantile(std::vector<double> values, double share) {
+  const auto place = static_cast<std::ptrdiff_t>(static_cast<double>(values.size()) * share);
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return values[static_cast<std::size_t>(place)];
 }
 
-Timing timing(const Case& c, const Samples& samples) {
-  const bool clean = !samples.clean.empty();
-  const auto& used = clean ? samples.clean : samples.disturbed;
-  const double seconds = clean ? median(used) : *std::min_element(used.begin(), used.end());
+bool enough(const Samples& samples) { return samples.clean.size() >= kMinRounds; }
+
+Timing timing(const Case& c, const Samples& samples, bool clean) {
+  std::vector<double> used = samples.clean;
+  if (!clean) used.insert(used.end(), samples.disturbed.begin(), samples.disturbed.end());
+  const double seconds = quantile(used, clean ? kMiddle : kLowerQuarter);
   const int count = static_cast<int>(used.size());
-  return {c.name, c.threads, seconds, c.units / seconds, count, clean ? 0 : count};
+  return {c.name, c.threads, seconds, c.units / seconds, count, enough(samples) ? 0 : count};
 }
 
 std::vector<Timing> time_all(const std::vector<Case>& cases, const Budget& budget) {
@@ -103,7 +106,10 @@ std::vector<Timing> time_all(const std::vector<Case>& cases, const Budget& budge
     for (std::size_t i = 0; i < cases.size(); ++i) sample(cases[i], probe, samples[i]);
   }
   std::vector<Timing> timings;
-  for (std::size_t i = 0; i < cases.size(); ++i) timings.push_back(timing(cases[i], samples[i]));
+  const bool clean = std::all_of(samples.begin(), samples.end(), enough);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    timings.push_back(timing(cases[i], samples[i], clean));
+  }
   return timings;
 }
 

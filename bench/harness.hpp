@@ -31,10 +31,10 @@ struct Target {
 struct Timing {
   std::string name;
   int threads = 1;
-  double seconds = 0;  ///< median of a call
+  double seconds = 0;  ///< of a call; see measure()
   double rate = 0;     ///< [units/s]
   int samples = 0;
-  int disturbed = 0;  ///< all of `samples`, if none was free of other work
+  int disturbed = 0;  ///< all of `samples`, if fewer than 3 were free of other work
 };
 
 /// A comparison of cases of one suite, so of things measured in the same run.
@@ -91,7 +91,7 @@ class Suite {
   std::vector<Rule> rules_;
 };
 
-/// How long a suite may take: rounds over all its cases until both are used up, 3 at least.
+/// How long a suite may take: rounds over all its cases until one of these is used up, 3 at least.
 struct Budget {
   int rounds = 15;
   double seconds = 12;
@@ -99,8 +99,8 @@ struct Budget {
 
 /// Runs the cases round-robin, so that all see the same weather, and takes medians. A sample counts
 /// if its thread had a core all along and, for two threads, if two cores were free before and after
-/// it; it is repeated up to three times to get one. Where none came out so, the fastest of the
-/// disturbed ones has to do, and is marked as such.
+/// it; it is repeated up to three times to get one. A case with fewer than three such samples is
+/// marked; then every case of the suite is judged alike, by the lower quartile of all its samples.
 Result measure(const Suite& suite, const Budget& budget);
 
 }  // namespace glint::bench

@@ -35,7 +35,7 @@ struct EngineResult {
 
 struct EngineSettings {
   enum class WhenFull {
-    wait,         ///< push() waits until a quarter is free: every frame is tracked
+    wait,         ///< once full push() waits for a quarter of it: every frame is tracked
     drop_oldest,  ///< the frame that has waited longest is dropped: what is tracked is recent
   };
   std::size_t queue = 8;  ///< frames that may wait, at least 1
