@@ -58,7 +58,7 @@ GLINT_API glint_status glint_default_config(char *text, size_t *size);
 typedef struct glint_engine glint_engine;
 
 typedef enum glint_when_full {
-  GLINT_WAIT = 0,       /* glint_push() waits until there is room: no frame is lost */
+  GLINT_WAIT = 0,       /* once its queue is full glint_push() waits for a quarter of it: no frame is lost */
   GLINT_DROP_OLDEST = 1 /* the frame that has waited longest is dropped */
 } glint_when_full;
 
