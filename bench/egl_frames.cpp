@@ -4,8 +4,8 @@
 
 #include "glint/bench/bench.hpp"
 #include "glint/bench/engine_run.hpp"
-#include "glint/engine/frame_preparer.hpp"
-#include "glint/engine/trackers/smc_phd.hpp"
+#include "glint/engine/frames/frame_preparer.hpp"
+#include "glint/engine/trackers/phd/smc_phd.hpp"
 #include "glint/kernels/core/device_traffic.hpp"
 
 namespace glint::bench {

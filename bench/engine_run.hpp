@@ -5,7 +5,7 @@
 
 #include "glint/bench/harness.hpp"
 #include "glint/bench/memory_source.hpp"
-#include "glint/engine/trackers/tracker.hpp"
+#include "glint/engine/tracks/tracker.hpp"
 
 namespace glint::bench {
 

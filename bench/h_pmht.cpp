@@ -9,7 +9,7 @@
 #include "glint/bench/data.hpp"
 #include "glint/bench/engine_run.hpp"
 #include "glint/engine/scenario/scenario.hpp"
-#include "glint/engine/trackers/h_pmht.hpp"
+#include "glint/engine/trackers/h_pmht/h_pmht.hpp"
 
 namespace glint::bench {
 namespace {

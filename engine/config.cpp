@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "glint/engine/text.hpp"
+#include "glint/engine/number_text.hpp"
 
 namespace glint {
 namespace {

@@ -2,17 +2,13 @@
 #pragma once
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
-namespace glint {
+#include "glint/engine/errors.hpp"
 
-/// A configuration mistake; the message names the key, what it must be, and what it was.
-struct ConfigError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+namespace glint {
 
 /// One setting of a config struct, by reference: where it lives, what it may be, what it means.
 /// TOML files, --set, --help, `glint config` and the docs all come from a config's list of these.

@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "glint/engine/state/fields.hpp"
+
 namespace glint {
 
 /// Hands out what waits now; a run over it ends when nothing does.

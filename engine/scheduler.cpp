@@ -10,13 +10,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "glint/engine/stage.hpp"
+#include "glint/engine/pipeline_stage.hpp"
+#include "glint/engine/state/fields.hpp"
 
 namespace glint {
 namespace {
 
 /// A tracker, its log and its stage.
-struct Lane {
+struct TrackerStage {
   std::unique_ptr<Tracker> tracker;
   TrackLog log;
   Stage stage;
@@ -53,7 +54,7 @@ struct Scheduler::State {
   FramePreparer preparer;
   PointFinder finder;
   bool finds_points = false;
-  std::deque<Lane> lanes;
+  std::deque<TrackerStage> trackers;
   std::vector<const TrackLog*> logs;
   std::vector<Sink*> sinks;
   Stage reading{"read"}, preparing{"prepare"}, delivering{"sinks"};
@@ -103,13 +104,13 @@ void Scheduler::State::prepare(Token& token) {
 }
 
 void Scheduler::State::track(std::size_t i, Token& token) {
-  Lane& lane = lanes[i];
-  lane.stage.pass(token, [&] {
-    if (token.scan.looked || lane.tracker->feed() != Feed::points) {
-      lane.tracker->step(token.scan, lane.log);
+  TrackerStage& entry = trackers[i];
+  entry.stage.pass(token, [&] {
+    if (token.scan.looked || entry.tracker->feed() != Feed::points) {
+      entry.tracker->step(token.scan, entry.log);
     }
-    lane.log.at(token.frame, token.reported[i]);
-    if (kept > 0) lane.log.forget(token.frame - kept + 1);
+    entry.log.at(token.frame, token.reported[i]);
+    if (kept > 0) entry.log.forget(token.frame - kept + 1);
   });
   if (token.failed) stopping = true;
 }
@@ -128,7 +129,7 @@ void Scheduler::State::deliver(Token& token) {
 void Scheduler::State::run_serial(Source& source, const std::stop_token& stop) {
   while (Token* token = read(source, stop)) {
     prepare(*token);
-    for (std::size_t i = 0; i < lanes.size(); ++i) track(i, *token);
+    for (std::size_t i = 0; i < trackers.size(); ++i) track(i, *token);
     deliver(*token);
   }
 }
@@ -148,14 +149,14 @@ void Scheduler::State::run_pipeline(Source& source, const std::stop_token& stop)
     });
   };
   append([this](Token& token) { prepare(token); });
-  for (std::size_t i = 0; i < lanes.size(); ++i) append([this, i](Token& t) { track(i, t); });
+  for (std::size_t i = 0; i < trackers.size(); ++i) append([this, i](Token& t) { track(i, t); });
   const auto last = tbb::make_filter<Token*, void>(kMode, [this](Token* t) { deliver(*t); });
   device.workers().execute([&] { tbb::parallel_pipeline(kFramesInFlight, chain & last); });
 }
 
 void Scheduler::State::advance(Source& source, const std::stop_token& stop) {
   started = true;
-  for (Token& token : tokens) token.reported.resize(lanes.size());
+  for (Token& token : tokens) token.reported.resize(trackers.size());
   if (device.workers().threads() == 1) {
     run_serial(source, stop);
   } else {
@@ -164,9 +165,10 @@ void Scheduler::State::advance(Source& source, const std::stop_token& stop) {
 }
 
 void Scheduler::State::finish() {
-  for (Lane& lane : lanes) {
-    if (lane.stage.threw()) continue;
-    const std::exception_ptr failure = lane.stage.attempt([&] { lane.tracker->finish(lane.log); });
+  for (TrackerStage& entry : trackers) {
+    if (entry.stage.threw()) continue;
+    const std::exception_ptr failure =
+        entry.stage.attempt([&] { entry.tracker->finish(entry.log); });
     if (!error) error = failure;
   }
 }
@@ -178,8 +180,9 @@ Scheduler::Scheduler(Scheduler&&) noexcept = default;
 
 void Scheduler::add(std::unique_ptr<Tracker> tracker, std::string name) {
   if (tracker->feed() != Feed::frames) find_points();
-  Lane& lane = state_->lanes.emplace_back(Lane{std::move(tracker), {}, Stage(std::move(name))});
-  state_->logs.push_back(&lane.log);
+  TrackerStage& entry =
+      state_->trackers.emplace_back(TrackerStage{std::move(tracker), {}, Stage(std::move(name))});
+  state_->logs.push_back(&entry.log);
 }
 
 void Scheduler::add(Sink& sink) { state_->sinks.push_back(&sink); }
@@ -214,7 +217,8 @@ CheckpointLabel Scheduler::label(std::string maker) const {
                         {},
                         state_->settings,
                         state_->next_frame};
-  for (const Lane& lane : state_->lanes) label.trackers.push_back(lane.stage.time().stage);
+  for (const TrackerStage& entry : state_->trackers)
+    label.trackers.push_back(entry.stage.time().stage);
   return label;
 }
 
@@ -225,7 +229,7 @@ void Scheduler::put_state(ByteWriter& to) const {
   if (s.finished) throw std::logic_error("a finished run has no checkpoint: take it before");
   put_bytes(to, s.next_frame), put_bytes(to, s.delivered);
   s.preparer.save(to);
-  for (const Lane& lane : s.lanes) lane.tracker->save(to), put_bytes(to, lane.log);
+  for (const TrackerStage& entry : s.trackers) entry.tracker->save(to), put_bytes(to, entry.log);
 }
 
 void Scheduler::take_state(ByteReader& from, After after) {
@@ -234,7 +238,7 @@ void Scheduler::take_state(ByteReader& from, After after) {
   take_bytes(from, s.next_frame), take_bytes(from, s.delivered);
   require_frame_number(s.next_frame), require_frame_number(s.delivered);
   s.preparer.restore(from);
-  for (Lane& lane : s.lanes) lane.tracker->restore(from), take_bytes(from, lane.log);
+  for (TrackerStage& entry : s.trackers) entry.tracker->restore(from), take_bytes(from, entry.log);
   require_bytes(after == After::more || from.left() == 0, "it is too long");
   s.started = s.finished = false;
 }
@@ -257,10 +261,10 @@ const std::vector<const TrackLog*>& Scheduler::logs() const { return state_->log
 void Scheduler::keep(std::int64_t frames) { state_->kept = frames; }
 
 void Scheduler::reserve(std::size_t points) {
-  for (Lane& lane : state_->lanes) lane.log.reserve(points);
+  for (TrackerStage& entry : state_->trackers) entry.log.reserve(points);
 }
 
-const Tracker& Scheduler::tracker(std::size_t i) const { return *state_->lanes.at(i).tracker; }
+const Tracker& Scheduler::tracker(std::size_t i) const { return *state_->trackers.at(i).tracker; }
 
 const FramePreparer& Scheduler::preparer() const { return state_->preparer; }
 
@@ -268,7 +272,7 @@ std::int64_t Scheduler::frames() const { return state_->delivered; }
 
 std::vector<StageTime> Scheduler::stage_times() const {
   std::vector<StageTime> times{state_->reading.time(), state_->preparing.time()};
-  for (const Lane& lane : state_->lanes) times.push_back(lane.stage.time());
+  for (const TrackerStage& entry : state_->trackers) times.push_back(entry.stage.time());
   times.push_back(state_->delivering.time());
   return times;
 }

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "glint/engine/checkpoint.hpp"
-#include "glint/engine/frame_preparer.hpp"
-#include "glint/engine/points.hpp"
-#include "glint/engine/trackers/tracker.hpp"
+#include "glint/engine/frames/frame_preparer.hpp"
+#include "glint/engine/frames/point_finder.hpp"
+#include "glint/engine/state/checkpoint.hpp"
+#include "glint/engine/tracks/tracker.hpp"
 
 namespace glint {
 

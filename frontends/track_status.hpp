@@ -2,7 +2,7 @@
 #pragma once
 #include <string_view>
 
-#include "glint/engine/tracks.hpp"
+#include "glint/engine/tracks/track_log.hpp"
 
 namespace glint {
 

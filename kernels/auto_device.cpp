@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "glint/kernels/core/egl_hardware.hpp"
-#include "glint/kernels/core/kept_memory.hpp"
+#include "glint/kernels/core/resident_memory.hpp"
 #include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
 #include "glint/kernels/propagate/propagate.hpp"
@@ -30,7 +30,7 @@ class Calibration {
   explicit Calibration(const Device& device)
       : device_(device), frame_(kSide, kSide), map_(kSide, kSide, device), log_ratio_(device) {
     const auto kept = [&](float first, std::uint32_t factor, std::uint32_t values) {
-      KeptArray<float> array(device);
+      ResidentArray<float> array(device);
       array.resize(kParticles);
       std::uint32_t at = 0;
       for (float& value : array.values()) {
@@ -48,7 +48,7 @@ class Calibration {
   }
   void run() {
     const FrameView frame = std::as_const(frame_).view();
-    const Kept sent = device_.stage(frame);
+    const Resident sent = device_.stage(frame);
     const PointSpread spread = PointSpread::of(.7);
     PixelLikelihood::Args pixels;
     pixels.frame = frame;
@@ -70,9 +70,9 @@ class Calibration {
  private:
   Device device_;
   Image<float> frame_;
-  KeptImage<float> map_;
-  std::vector<KeptArray<float>> arrays_;
-  KeptArray<float> log_ratio_;
+  ResidentImage<float> map_;
+  std::vector<ResidentArray<float>> arrays_;
+  ResidentArray<float> log_ratio_;
 };
 
 /// The least of a few, after one that compiles shaders and touches memory.

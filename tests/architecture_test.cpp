@@ -63,13 +63,39 @@ void expect_none(const std::vector<std::string>& rooms,
   }
 }
 
-const std::vector<std::string> kRooms{"kernels", "engine", "frontends", "bench"};
+const std::vector<std::string> kRooms{"kernels", "engine", "experiments", "frontends", "bench"};
 
 TEST(Architecture, KernelsIncludeNothingAboveThem) {
-  expect_none({"kernels"}, {"glint/engine", "glint/frontends", "glint/bench", "Eigen"});
+  expect_none({"kernels"},
+              {"glint/engine", "glint/experiments", "glint/frontends", "glint/bench", "Eigen"});
 }
 TEST(Architecture, EngineIncludesNothingAboveIt) {
-  expect_none({"engine"}, {"glint/frontends", "glint/bench"});
+  expect_none({"engine"}, {"glint/experiments", "glint/frontends", "glint/bench"});
+}
+TEST(Architecture, ExperimentsStandOnTheEngineAlone) {
+  expect_none({"experiments"}, {"glint/frontends", "glint/bench"});
+}
+TEST(Architecture, FrontEndsDoNotNeedTheBenchmarks) { expect_none({"frontends"}, {"glint/bench"}); }
+TEST(Architecture, SharedRoomsOfTheEngineKnowNoTracker) {
+  expect_none({"engine/frames", "engine/filters", "engine/tracks", "engine/state"},
+              {"glint/engine/trackers"});
+}
+TEST(Architecture, ATrackerFamilyIncludesNoOther) {
+  const fs::path trackers = fs::path(GLINT_SOURCE_DIR) / "engine/trackers";
+  std::size_t families = 0;
+  for (const auto& entry : fs::directory_iterator(trackers)) {
+    if (!entry.is_directory()) continue;
+    ++families;
+    const std::string own = "glint/engine/trackers/" + entry.path().filename().string() + "/";
+    for (const auto& [file, header] : includes_of("engine/trackers/" + own.substr(22))) {
+      EXPECT_TRUE(!header.starts_with("glint/engine/trackers/") || header.starts_with(own))
+          << file << " includes " << header;
+    }
+  }
+  EXPECT_GE(families, 6u);
+}
+TEST(Architecture, EigenStaysOutOfTheBytesOfState) {
+  expect_none({"engine/state"}, {"Eigen"}, {"engine/state/fields.hpp"});
 }
 TEST(Architecture, OpenCvStaysInVideoAndInBaselines) {
   expect_none(kRooms, {"opencv"}, {"frontends/video/", "bench/baselines/"});
@@ -85,6 +111,7 @@ TEST(Architecture, TbbStaysInKernelsAndTheScheduler) {
   // The tools that count threads may hold a global_control; the library may not.
   const std::vector<std::string_view> headers{"tbb/", "oneapi/tbb"};
   expect_none({"engine"}, headers, {"engine/scheduler"});
+  expect_none({"experiments"}, headers);
   expect_none({"frontends", "bench"}, headers, {"frontends/cli/parity.cpp", "bench/baselines/"});
   expect_none({"kernels", "engine"}, {"tbb/global_control", "oneapi/tbb/global_control"});
 }
@@ -98,11 +125,12 @@ TEST(Architecture, OpenGlStaysInTheCoreAndInGlFiles) {
     if (file == "kernels/parity.cpp") continue;  // makes buffers small
     EXPECT_FALSE(starts_with_any(header, headers)) << file << " includes " << header;
   }
-  expect_none({"engine", "frontends", "bench"}, headers);
+  expect_none({"engine", "experiments", "frontends", "bench"}, headers);
   expect_none(kRooms, {"EGL/", "GL/"});
 }
 TEST(Architecture, LibraryNeedsNoFrontEndsPackages) {
-  expect_none({"kernels", "engine"}, {"CLI/", "nlohmann", "fmt/", "fitsio", "iostream"});
+  expect_none({"kernels", "engine", "experiments"},
+              {"CLI/", "nlohmann", "fmt/", "fitsio", "iostream"});
 }
 TEST(Architecture, InTreeHeadersAreNamedFromTheirLayer) {
   for (const std::string& room : kRooms) {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "glint/engine/trackers/h_pmht.hpp"
+#include "glint/engine/trackers/h_pmht/h_pmht.hpp"
 #include "glint/kernels/cell_integrals/cell_integrals.hpp"
 
 /// H-PMHT as one writes it from the paper: every step over every cell of the frame, in double, with

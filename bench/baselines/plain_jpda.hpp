@@ -6,7 +6,7 @@
 
 #include "glint/bench/baselines/plain_imm.hpp"
 #include "glint/bench/baselines/plain_jpda_events.hpp"
-#include "glint/engine/trackers/imm_jpda.hpp"
+#include "glint/engine/trackers/jpda/imm_jpda.hpp"
 
 namespace glint::bench {
 

@@ -6,7 +6,7 @@
 
 #include "glint/bench/baselines/plain_imm.hpp"
 #include "glint/bench/baselines/plain_pmht_weights.hpp"
-#include "glint/engine/trackers/mmpf_pmht.hpp"
+#include "glint/engine/trackers/pmht/mmpf_pmht.hpp"
 
 namespace glint::bench {
 

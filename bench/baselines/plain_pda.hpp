@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "glint/bench/baselines/plain_imm.hpp"
-#include "glint/engine/trackers/imm_pda_ai.hpp"
+#include "glint/engine/trackers/imm_pda_ai/imm_pda_ai.hpp"
 
 namespace glint::bench {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "glint/engine/trackers/pmht.hpp"
+#include "glint/engine/trackers/pmht/pmht.hpp"
 
 namespace glint::bench {
 

@@ -5,7 +5,7 @@
 #include "glint/bench/data.hpp"
 #include "glint/bench/kernels/suites.hpp"
 #include "glint/bench/limits.hpp"
-#include "glint/engine/frame_preparer.hpp"
+#include "glint/engine/frames/frame_preparer.hpp"
 
 namespace glint::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include "glint/engine/bytes.hpp"
+#include "glint/engine/state/bytes.hpp"
 
 namespace glint {
 

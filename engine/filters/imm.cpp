@@ -7,13 +7,13 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "glint/engine/bytes.hpp"
-#include "glint/engine/text.hpp"
+#include "glint/engine/number_text.hpp"
+#include "glint/engine/state/bytes.hpp"
 
 namespace glint {
 namespace {
 
-using Weights = std::array<double, ModeProbability::kCapacity>;
+using Weights = std::array<double, kMostModes>;
 
 template <int Axes, int N>
 Gaussian<N> seen_as(const ModeOf<Axes>& mode, const Gaussian<N>& own) {

@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-#include "glint/engine/mode_probability.hpp"
-#include "glint/engine/models/motion.hpp"
-#include "glint/engine/short_list.hpp"
+#include "glint/engine/filters/mode_probability.hpp"
+#include "glint/engine/filters/motion.hpp"
+#include "glint/engine/filters/short_list.hpp"
 
 namespace glint {
 
@@ -32,8 +32,7 @@ using ModeOf = std::variant<Mode<ConstantVelocity, Axes>, Mode<ConstantAccelerat
 using AnyMode = ModeOf<2>;
 
 /// Probability of a step from the row's model to the column's.
-using Switching = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
-                                ModeProbability::kCapacity, ModeProbability::kCapacity>;
+using Switching = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostModes, kMostModes>;
 
 /// Scales each row to sum to 1, since a chain that leaks biases every estimate that is mixed by it
 /// (P-PMHT (33) sums to 0.999). Returns a sentence for each row that was off by more than rounding.
@@ -54,7 +53,7 @@ ModeProbability weighed(const ModeProbability& probability, std::span<const doub
 template <int Axes>
 class ImmOf {
  public:
-  using Modes = ShortList<ModeOf<Axes>, ModeProbability::kCapacity>;
+  using Modes = ShortList<ModeOf<Axes>, kMostModes>;
 
   /// Of no models: to be restored.
   ImmOf() = default;

@@ -148,13 +148,13 @@ Evaluation evaluate(std::span<const TruthPoint> truth, std::span<const TrackPoin
   Tally tally;
   for (std::size_t k = 0; k < truth_by_frame.size(); ++k) {
     const std::vector<Position> there = positions(truth_by_frame[k]);
-    const std::vector<Position> said = positions(tracks_by_frame[k]);
-    result.ospa.push_back(ospa(there, said, options.cutoff, options.order));
-    result.gospa.push_back(gospa(there, said, options.cutoff, options.order));
+    const std::vector<Position> reported = positions(tracks_by_frame[k]);
+    result.ospa.push_back(ospa(there, reported, options.cutoff, options.order));
+    result.gospa.push_back(gospa(there, reported, options.cutoff, options.order));
     note_truths(truth_by_frame[k], result);
     note_tracks(truth_by_frame[k], tracks_by_frame[k], options.cutoff, tally);
     note_matches(truth_by_frame[k], tracks_by_frame[k],
-                 match(there, said, options.cutoff, options.order), tally, result);
+                 match(there, reported, options.cutoff, options.order), tally, result);
   }
   score_truths(tally, result);
   score_tracks(tally, frames, result);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "glint/engine/metrics/metrics.hpp"
-#include "glint/engine/tracks.hpp"
-#include "glint/engine/truth.hpp"
+#include "glint/engine/scenario/truth.hpp"
+#include "glint/engine/tracks/track_log.hpp"
 
 namespace glint {
 

@@ -11,8 +11,8 @@
 #include "glint/engine/config.hpp"
 #include "glint/engine/scenario/path.hpp"
 #include "glint/engine/scenario/silhouette.hpp"
+#include "glint/engine/scenario/truth.hpp"
 #include "glint/engine/scheduler.hpp"
-#include "glint/engine/truth.hpp"
 #include "glint/kernels/core/frame.hpp"
 #include "glint/kernels/core/point_spread.hpp"
 

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <array>
 
-#include "glint/engine/trackers/h_pmht.hpp"
-#include "glint/engine/trackers/imm_jpda.hpp"
-#include "glint/engine/trackers/imm_pda_ai.hpp"
-#include "glint/engine/trackers/mm_pf.hpp"
-#include "glint/engine/trackers/mm_phd.hpp"
-#include "glint/engine/trackers/mmpf_pmht.hpp"
-#include "glint/engine/trackers/pmht.hpp"
-#include "glint/engine/trackers/smc_phd.hpp"
-#include "glint/engine/trackers/viterbi.hpp"
+#include "glint/engine/trackers/h_pmht/h_pmht.hpp"
+#include "glint/engine/trackers/imm_pda_ai/imm_pda_ai.hpp"
+#include "glint/engine/trackers/jpda/imm_jpda.hpp"
+#include "glint/engine/trackers/phd/mm_pf.hpp"
+#include "glint/engine/trackers/phd/mm_phd.hpp"
+#include "glint/engine/trackers/phd/smc_phd.hpp"
+#include "glint/engine/trackers/pmht/mmpf_pmht.hpp"
+#include "glint/engine/trackers/pmht/pmht.hpp"
+#include "glint/engine/trackers/viterbi/viterbi.hpp"
 
 namespace glint {
 namespace {

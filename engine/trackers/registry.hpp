@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "glint/engine/config.hpp"
-#include "glint/engine/trackers/tracker.hpp"
+#include "glint/engine/tracks/tracker.hpp"
 #include "glint/kernels/core/device.hpp"
 
 namespace glint {

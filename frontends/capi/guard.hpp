@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "glint/engine/checkpoint.hpp"
 #include "glint/engine/config.hpp"
+#include "glint/engine/state/checkpoint.hpp"
 #include "glint/frontends/capi/glint.h"
 #include "glint/frontends/usage_error.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "glint/engine/tracks.hpp"
+#include "glint/engine/tracks/track_log.hpp"
 #include "glint/frontends/capi/glint.h"
 
 namespace glint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/engine/experiments/calibration.hpp"
+#include "glint/experiments/calibration.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "glint/engine/text.hpp"
+#include "glint/engine/number_text.hpp"
 #include "glint/frontends/cli/frame_job.hpp"
 #include "glint/frontends/cli/run_progress.hpp"
 

@@ -3,9 +3,7 @@
 
 #include <fmt/core.h>
 
-#include <exception>
-
-#include "glint/engine/config.hpp"
+#include "glint/frontends/cli/run_app.hpp"
 #ifdef GLINT_WITH_OPENCV
 #include "glint/frontends/video/video_file.hpp"
 #endif
@@ -18,27 +16,6 @@ std::span<void (*const)(CLI::App&)> all_commands() {
       add_calibrate, add_bench,    add_parity,   add_info,   add_config};
   return kCommands;
 }
-
-namespace {
-
-int fail(int code, std::string_view message) {
-  fmt::print(stderr, "glint: {}\n", message);
-  return code;
-}
-
-const CLI::App& deepest(const CLI::App& app) {
-  const auto chosen = app.get_subcommands();
-  return chosen.empty() ? app : deepest(*chosen.front());
-}
-
-int parse_error(const CLI::App& app, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) return app.exit(error);
-  const CLI::App& at = deepest(app);
-  const std::string command = &at == &app ? "glint" : "glint " + at.get_name();
-  return fail(2, fmt::format("{} (see {} --help)", error.what(), command));
-}
-
-}  // namespace
 
 int run(int argc, char** argv) {
 #ifdef GLINT_WITH_OPENCV
@@ -55,19 +32,10 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done, 1 failed while running, 2 wrong use.");
   app.require_subcommand(0, 1);
   for (const auto add : all_commands()) add(app);
-  try {
-    app.parse(argc, argv);
+  app.callback([&app] {
     if (app.get_subcommands().empty()) fmt::print("{}", app.help());
-    return 0;
-  } catch (const CLI::ParseError& e) {
-    return parse_error(app, e);
-  } catch (const UsageError& e) {
-    return fail(2, e.what());
-  } catch (const ConfigError& e) {
-    return fail(2, e.what());
-  } catch (const std::exception& e) {
-    return fail(1, e.what());
-  }
+  });
+  return run_app(app, argc, argv);
 }
 
 }  // namespace glint::cli

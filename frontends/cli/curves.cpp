@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "glint/engine/text.hpp"
+#include "glint/engine/number_text.hpp"
 #include "glint/frontends/files/tables.hpp"
 
 namespace glint::cli {

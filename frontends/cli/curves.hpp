@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "glint/engine/experiments/experiment.hpp"
+#include "glint/experiments/experiment.hpp"
 #include "glint/frontends/video/plot.hpp"
 
 namespace glint::cli {

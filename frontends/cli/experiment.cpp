@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/engine/experiments/experiment.hpp"
+#include "glint/experiments/experiment.hpp"
 
 #include <fmt/core.h>
 
@@ -12,10 +12,10 @@
 
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/curves.hpp"
-#include "glint/frontends/cli/mpi_team.hpp"
 #include "glint/frontends/cli/run_progress.hpp"
 #include "glint/frontends/experiments/recorded.hpp"
 #include "glint/frontends/experiments/run_file.hpp"
+#include "glint/frontends/mpi/mpi_team.hpp"
 
 namespace glint::cli {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "glint/engine/experiments/experiment.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/experiments/experiment.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/kernels/all.hpp"
 #include "glint/kernels/auto_device.hpp"

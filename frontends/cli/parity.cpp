@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "glint/engine/log_parity.hpp"
 #include "glint/engine/scenario/scenes.hpp"
+#include "glint/experiments/log_parity.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/kernels/all.hpp"
 

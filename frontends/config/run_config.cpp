@@ -6,8 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "glint/engine/frame_preparer.hpp"
-#include "glint/engine/points.hpp"
+#include "glint/engine/frames/frame_preparer.hpp"
+#include "glint/engine/frames/point_finder.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/config/toml.hpp"

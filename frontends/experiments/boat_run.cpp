@@ -57,15 +57,15 @@ void start_new(std::span<const TruthPoint> now, std::span<const TruthPoint> befo
   }
 }
 
-void judge_last(std::span<const TruthPoint> truth, std::span<const TrackPoint> said, const Own& own,
-                BoatScore& score) {
+void judge_last(std::span<const TruthPoint> truth, std::span<const TrackPoint> reported,
+                const Own& own, BoatScore& score) {
   for (const TruthPoint& boat : truth) {
     const auto started = own.find(boat.track_id);
     if (started == own.end()) continue;
-    const auto track = std::ranges::find(said, started->second, &TrackPoint::track_id);
+    const auto track = std::ranges::find(reported, started->second, &TrackPoint::track_id);
     const TruthPoint* nearest = nullptr;
     double least = kCutoff;
-    if (track != said.end() && track->status != TrackStatus::halted) {
+    if (track != reported.end() && track->status != TrackStatus::halted) {
       for (const TruthPoint& other : truth) {
         const double d = distance({track->x, track->y}, {other.x, other.y});
         if (d <= least) least = d, nearest = &other;

@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 
-#include "glint/engine/experiments/evaluation_bytes.hpp"
-#include "glint/engine/trackers/imm_jpda.hpp"
+#include "glint/engine/trackers/jpda/imm_jpda.hpp"
+#include "glint/experiments/evaluation_bytes.hpp"
 #include "glint/frontends/files/autoferry.hpp"
 
 namespace glint {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "glint/engine/experiments/boat_tracker.hpp"
-#include "glint/engine/experiments/monte_carlo.hpp"
+#include "glint/experiments/boat_tracker.hpp"
+#include "glint/experiments/monte_carlo.hpp"
 #include "glint/frontends/experiments/boat_run.hpp"
 #include "glint/frontends/experiments/recorded.hpp"
 #include "glint/frontends/usage_error.hpp"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "glint/engine/config.hpp"
-#include "glint/engine/experiments/evaluation_bytes.hpp"
 #include "glint/engine/scheduler.hpp"
+#include "glint/experiments/evaluation_bytes.hpp"
 
 namespace glint {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "glint/engine/trackers/h_pmht.hpp"
+#include "glint/engine/trackers/h_pmht/h_pmht.hpp"
 #include "glint/frontends/files/cropped_source.hpp"
 #include "glint/frontends/files/open_source.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "glint/engine/truth.hpp"
+#include "glint/engine/scenario/truth.hpp"
 
 namespace glint {
 

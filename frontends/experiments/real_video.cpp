@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "glint/engine/experiments/monte_carlo.hpp"
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/experiments/monte_carlo.hpp"
 #include "glint/frontends/config/profiles.hpp"
 #include "glint/frontends/config/settings.hpp"
 #include "glint/frontends/experiments/clip_run.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "glint/engine/experiments/experiment.hpp"
+#include "glint/experiments/experiment.hpp"
 
 namespace glint {
 

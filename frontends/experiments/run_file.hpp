@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "glint/engine/experiments/runs.hpp"
+#include "glint/experiments/runs.hpp"
 
 namespace glint {
 

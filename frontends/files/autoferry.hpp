@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "glint/engine/metrics/metrics.hpp"
-#include "glint/engine/truth.hpp"
+#include "glint/engine/scenario/truth.hpp"
 
 namespace glint {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "glint/engine/text.hpp"
+#include "glint/engine/number_text.hpp"
 #include "glint/frontends/files/csv.hpp"
 #include "glint/frontends/usage_error.hpp"
 

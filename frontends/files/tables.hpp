@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "glint/engine/metrics/evaluation.hpp"
-#include "glint/engine/tracks.hpp"
-#include "glint/engine/truth.hpp"
+#include "glint/engine/scenario/truth.hpp"
+#include "glint/engine/tracks/track_log.hpp"
 #include "glint/frontends/track_status.hpp"
 
 namespace glint {

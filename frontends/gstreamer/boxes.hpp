@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "glint/engine/tracks.hpp"
+#include "glint/engine/tracks/track_log.hpp"
 
 namespace glint::gstreamer {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "glint/engine/experiments/experiment.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/experiments/experiment.hpp"
 #include "glint/frontends/config/run_config.hpp"
 #include "glint/frontends/config/toml.hpp"
 #include "glint/frontends/python/engine.hpp"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "glint/engine/experiments/experiment.hpp"
 #include "glint/engine/scenario/scenario.hpp"
+#include "glint/experiments/experiment.hpp"
 
 namespace glint::python {
 namespace {

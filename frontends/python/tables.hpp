@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "glint/engine/tracks.hpp"
-#include "glint/engine/truth.hpp"
+#include "glint/engine/scenario/truth.hpp"
+#include "glint/engine/tracks/track_log.hpp"
 #include "glint/frontends/capi/glint.h"
 
 namespace glint::python {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "glint/engine/tracks.hpp"
+#include "glint/engine/tracks/track_log.hpp"
 #include "glint/kernels/core/frame.hpp"
 
 namespace glint {

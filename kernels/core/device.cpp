@@ -49,13 +49,13 @@ Device Device::named(std::string_view kind, int threads) {
                               "' is not known: use auto, serial, tbb, egl or egl:N");
 }
 
-Kept Device::keep_region(const Region& region) const {
+Resident Device::make_region_resident(const Region& region) const {
   if (kind_ != DeviceKind::egl) return {};
-  context_->run([&](gl::Queue& queue) { queue.keep(region); });
+  context_->run([&](gl::Queue& queue) { queue.make_resident(region); });
   return {context_, region.data};
 }
 
-Kept Device::stage_region(const Region& region) const {
+Resident Device::stage_region(const Region& region) const {
   if (kind_ != DeviceKind::egl || region.bytes() == 0) return {};
   const std::optional<gl::StagingSlot> slot = context_->staging_slot(region.bytes());
   if (!slot) return {};  // then it goes up when a kernel asks for it
@@ -68,7 +68,7 @@ Kept Device::stage_region(const Region& region) const {
   bool staged = false;
   context_->run(
       [&](gl::Queue& queue) { staged = queue.keep_staged(region, *slot, taken.count()); });
-  return staged ? Kept(context_, region.data) : Kept();
+  return staged ? Resident(context_, region.data) : Resident();
 }
 
 bool Device::fits(const WholeCall& call) const { return call.bytes <= context_->max_bytes(); }
@@ -108,11 +108,11 @@ void Device::fill(std::span<float> values, float value) const {
   std::ranges::fill(values, value);
 }
 
-void Kept::fetch(const Region& region) const {
+void Resident::fetch(const Region& region) const {
   if (memory_ != nullptr) context_->run([&](gl::Queue& queue) { queue.fetch(region); });
 }
 
-Kept::~Kept() {
+Resident::~Resident() {
   if (memory_ == nullptr) return;
   context_->run([&](gl::Queue& queue) { queue.drop(memory_); });
 }

@@ -9,9 +9,9 @@
 
 #include "glint/kernels/core/egl_devices.hpp"
 #include "glint/kernels/core/function_ref.hpp"
-#include "glint/kernels/core/kept.hpp"
 #include "glint/kernels/core/kernel_clock.hpp"
 #include "glint/kernels/core/region.hpp"
+#include "glint/kernels/core/resident.hpp"
 #include "glint/kernels/core/workers.hpp"
 
 namespace glint {
@@ -38,7 +38,7 @@ concept EglKernel = Kernel<K> && requires(const typename K::Args& args, gl::Cont
 /// What a call needs at once on an egl device, for kernels that cannot be cut into pieces there.
 struct WholeCall {
   std::size_t bytes;                  ///< of its largest buffer
-  std::vector<Region> read, written;  ///< memory that may be kept
+  std::vector<Region> read, written;  ///< memory that may be resident
 };
 
 /// A kernel that runs on tbb if a call does not fit an egl device's buffers.
@@ -75,19 +75,20 @@ class Device {
     return timed;
   }
 
-  /// Gives memory (a std::span or an ImageView) its home on an egl device until the answer is gone:
-  /// kernels leave what they write there and read it there, and the host's bytes count only after a
-  /// fetch() or send(), until the next such write. What they held is not taken along. On other
-  /// devices nothing happens: the host's memory is the kernels' own. Throws std::logic_error if
-  /// part of it is kept already, std::runtime_error if the device's memory runs out.
+  /// Makes memory (a std::span or an ImageView) resident on an egl device for as long as the result
+  /// lives: kernels read and write it there, and the host's bytes are up to date only after a
+  /// fetch() or send(), until the next such write. What they held before is not copied. On other
+  /// devices nothing happens: kernels work in the host's memory. Throws std::logic_error if part of
+  /// it is resident already, std::runtime_error if the device's memory runs out.
   template <class Memory>
-  Kept keep(Memory memory) const {
-    return keep_region(region_of(memory));
+  Resident make_resident(Memory memory) const {
+    return make_region_resident(region_of(memory));
   }
-  /// Sends memory ahead, until the answer is gone: the calling thread copies it while the device
-  /// works on, and kernels find it there. It must not change meanwhile. The host's bytes stay good.
+  /// Copies memory to the device ahead of its use, for as long as the result lives: the calling
+  /// thread copies it while the device works on, and kernels find it there. It must not change
+  /// meanwhile. The host's bytes stay good.
   template <class Memory>
-  Kept stage(Memory memory) const {
+  Resident stage(Memory memory) const {
     return stage_region(region_of(memory));
   }
   /// The host changed this memory, or part of it: kernels are to see it.
@@ -132,8 +133,8 @@ class Device {
   bool fits(const WholeCall& call) const;
   void on_host(const WholeCall& call, FunctionRef<void()> run) const;
 
-  Kept keep_region(const Region& region) const;
-  Kept stage_region(const Region& region) const;
+  Resident make_region_resident(const Region& region) const;
+  Resident stage_region(const Region& region) const;
   void send_region(const Region& region) const;
   void fetch_region(const Region& region) const;
   void copy_region(const Region& from, const Region& to) const;

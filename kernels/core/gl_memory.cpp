@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies where: the host's memory, copies of it, and what is kept on the device.
+// What lies where: the host's memory, copies of it, and what is resident on the device.
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
@@ -79,22 +79,22 @@ std::optional<Buffer> Queue::borrow(const Region& region) {
 }
 
 Buffer Queue::upload(const Region& region) {
-  if (std::optional<Buffer> kept = borrow(region)) return std::move(*kept);
+  if (std::optional<Buffer> resident = borrow(region)) return std::move(*resident);
   Buffer to = take(region.bytes());
   write(to, region, 0);
   return to;
 }
 
 Buffer Queue::output(const Region& region) {
-  if (std::optional<Buffer> kept = borrow(region)) return std::move(*kept);
+  if (std::optional<Buffer> resident = borrow(region)) return std::move(*resident);
   return take(region.bytes());
 }
 
 void Queue::write(const Buffer& to, const Region& region, std::size_t offset) {
   Place at = to.place_;
   at.offset += offset;
-  if (const std::optional<Place> kept = residents_.find(region)) {
-    return copy(*kept, at, region.bytes());
+  if (const std::optional<Place> resident = residents_.find(region)) {
+    return copy(*resident, at, region.bytes());
   }
   write_host(at, region);
 }
@@ -102,23 +102,23 @@ void Queue::write(const Buffer& to, const Region& region, std::size_t offset) {
 void Queue::read(const Buffer& from, const Region& region, std::size_t offset) {
   Place at = from.place_;
   at.offset += offset;
-  const std::optional<Place> kept = residents_.find(region);
-  if (!kept) return read_host(at, region);
+  const std::optional<Place> resident = residents_.find(region);
+  if (!resident) return read_host(at, region);
   if (keeping_ == Keeping::spoiling) spoil(region);
-  if (kept->id != at.id || kept->offset != at.offset) copy(at, *kept, region.bytes());
+  if (resident->id != at.id || resident->offset != at.offset) copy(at, *resident, region.bytes());
 }
 
 void Queue::fill(std::span<float> values, float value) {
   const Region region = region_of(values);
-  const std::optional<Place> kept = residents_.find(region);
-  if (!kept) {
+  const std::optional<Place> resident = residents_.find(region);
+  if (!resident) {
     std::ranges::fill(values, value);
     return;
   }
   timed(traffic_.compute, [&] {
-    api_.BindBuffer(Api::kCopyBuffer, kept->id);
+    api_.BindBuffer(Api::kCopyBuffer, resident->id);
     api_.ClearBufferSubData(
-        Api::kCopyBuffer, Api::kFloatWords, static_cast<std::ptrdiff_t>(kept->offset),
+        Api::kCopyBuffer, Api::kFloatWords, static_cast<std::ptrdiff_t>(resident->offset),
         static_cast<std::ptrdiff_t>(region.bytes()), Api::kRed, Api::kFloat, &value);
     api_.MemoryBarrier(Api::kAllBarriers);
   });
@@ -126,11 +126,11 @@ void Queue::fill(std::span<float> values, float value) {
   if (keeping_ == Keeping::spoiling) spoil(region);
 }
 
-void Queue::keep(const Region& region) {
+void Queue::make_resident(const Region& region) {
   if (keeping_ == Keeping::never || region.bytes() == 0) return;
   Buffer home = allocate(region.bytes());
   if (!residents_.add(region, Residents::Home::only, home.place_.id, home.place_.capacity)) {
-    throw std::logic_error("this memory is kept on the device already");
+    throw std::logic_error("this memory is resident on the device already");
   }
   home.queue_ = nullptr;
 }
@@ -159,13 +159,13 @@ void Queue::drop(const std::byte* region) {
 }
 
 void Queue::send(const Region& region) {
-  const std::optional<Place> kept = residents_.find(region);
-  if (!kept) return;
-  write_host(*kept, region);
+  const std::optional<Place> resident = residents_.find(region);
+  if (!resident) return;
+  write_host(*resident, region);
 }
 
 void Queue::fetch(const Region& region) {
-  if (const std::optional<Place> kept = residents_.find(region)) read_host(*kept, region);
+  if (const std::optional<Place> resident = residents_.find(region)) read_host(*resident, region);
 }
 
 }  // namespace glint::gl

@@ -27,7 +27,8 @@ namespace glint::gl {
 
 class Queue;
 
-/// Memory of the device: the queue's own, which goes back to its pool, or part of what it keeps.
+/// Memory of the device: the queue's own, which goes back to its pool, or part of a resident
+/// region.
 class Buffer {
  public:
   Buffer(Buffer&& other) noexcept
@@ -87,7 +88,8 @@ class Queue {
     return take(count * sizeof(T));
   }
   /// Values, or an image's rows without the padding between them, for passes to read: where they
-  /// are if they are kept, else a copy. A pass that changes what is not kept changes the copy.
+  /// are if they are resident, else a copy. A pass that changes what is not resident changes the
+  /// copy.
   template <class T>
   Buffer upload(std::span<T> values) {
     return upload(region_of(values));
@@ -97,7 +99,7 @@ class Queue {
     return upload(region_of(image));
   }
   /// Uninitialised memory for what is to become values, or rows of an image, by read(): where they
-  /// are if they are kept.
+  /// are if they are resident.
   template <class T>
   Buffer output(std::span<T> values) {
     return output(region_of(values));
@@ -126,14 +128,14 @@ class Queue {
     read(from, region_of(image), 0);
   }
 
-  /// See Device::keep(): from now on the region lives on the device, uninitialised.
-  void keep(const Region& region);
+  /// See Device::make_resident(): from now on the region lives on the device, uninitialised.
+  void make_resident(const Region& region);
   /// See Device::stage(): the region, whose bytes `slot` holds, lives there until drop(). False,
   /// and the slot is given back, if it lives somewhere already. `seconds` is what filling took.
   bool keep_staged(const Region& region, const StagingSlot& slot, double seconds);
   Staging& staging() { return staging_; }
   void drop(const std::byte* region);
-  /// From the host to the device and back, of regions that are kept; others stay as they are.
+  /// From the host to the device and back, of resident regions; others stay as they are.
   void send(const Region& region);
   void fetch(const Region& region);
   /// Copies rows of the same number and length, wherever they live.

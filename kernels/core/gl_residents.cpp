@@ -32,8 +32,8 @@ std::optional<std::size_t> offset_in(const Region& whole, const Region& part) {
 
 }  // namespace
 
-bool Residents::add(const Region& kept, Home home, unsigned id, std::size_t capacity) {
-  const Region region = kept.flat();
+bool Residents::add(const Region& added, Home home, unsigned id, std::size_t capacity) {
+  const Region region = added.flat();
   const auto next = residents_.lower_bound(region.data);
   if (next != residents_.end() && before(next->first, end_of(region))) return false;
   if (next != residents_.begin() && before(region.data, end_of(std::prev(next)->second.region))) {
@@ -60,7 +60,7 @@ std::optional<Place> Residents::find(const Region& wanted) const {
   const auto offset = offset_in(resident.region, region);
   if (!offset) {
     if (resident.home == Home::copy) return std::nullopt;
-    throw std::logic_error("memory kept on the device is used in another shape");
+    throw std::logic_error("memory resident on the device is used in another shape");
   }
   return Place{resident.id, *offset, resident.capacity};
 }

@@ -20,7 +20,7 @@ class Residents {
   /// Whether the device is the only place of a region's bytes, or has a copy of them.
   enum class Home { only, copy };
   /// False, and nothing is added, if part of the region lives there already.
-  bool add(const Region& kept, Home home, unsigned id, std::size_t capacity);
+  bool add(const Region& added, Home home, unsigned id, std::size_t capacity);
   /// The buffer of the region that begins there, which lives there no more; nothing if none does.
   std::optional<Place> remove(const std::byte* data);
   /// Nothing if the region lies elsewhere or is empty. Throws std::logic_error if it crosses the

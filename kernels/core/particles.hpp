@@ -8,8 +8,9 @@
 
 namespace glint {
 
-/// Particles as structure of arrays; all arrays have the same length. Units: [px], [px/s],
-/// [px/s^2], intensity in noise sigmas, weight in expected targets.
+/// Particles as structure of arrays; all arrays have the same length. Units: [px], [px/step],
+/// [px/step^2], intensity in noise sigmas, weight in expected targets. A step is whatever unit of
+/// time Propagate's `step` counts; the engine counts frames.
 struct Particles {
   AlignedVector<float> x, y, vx, vy, ax, ay, intensity, weight;
   AlignedVector<std::uint32_t> mode;   ///< index of the motion model
@@ -30,6 +31,10 @@ struct Particles {
   template <class F>
   void for_each_array(F&& f) {
     std::apply([&](auto&... array) { (f(array), ...); }, fields(*this));
+  }
+  template <class F>
+  void for_each_array(F&& f) const {
+    std::apply([&](const auto&... array) { (f(array), ...); }, fields(*this));
   }
 };
 

@@ -35,8 +35,4 @@ double PointSpread::intensity_of_snr(double snr) const {
   return 2 * std::numbers::pi * sigma * sigma * std::pow(10.0, snr / 20);  // P-PHD (5)
 }
 
-double PointSpread::snr_of_intensity(double intensity) const {
-  return 20 * std::log10(intensity / (2 * std::numbers::pi * sigma * sigma));
-}
-
 }  // namespace glint

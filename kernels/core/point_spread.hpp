@@ -26,7 +26,6 @@ struct PointSpread {
   /// Intensity whose continuous peak is `snr` [dB] above unit noise: 2 pi sigma^2 10^(snr/20).
   /// P-PHD (5).
   double intensity_of_snr(double snr) const;
-  double snr_of_intensity(double intensity) const;
   bool operator==(const PointSpread&) const = default;
 };
 

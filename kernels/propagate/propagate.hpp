@@ -13,14 +13,14 @@ namespace glint {
 
 enum class Motion : std::uint32_t { constant_velocity, constant_acceleration, coordinated_turn };
 
-/// One motion model of a bank.
+/// One motion model of a bank. The unit of time is that of Propagate::Args::step, "step" below.
 struct MotionMode {
   Motion motion = Motion::constant_velocity;
-  /// [rad/s], turns only; positive turns the stored velocity (vx, vy) so that atan2(vy, vx) grows:
-  /// anticlockwise on a plot with y up (AC-CT), clockwise on a screen with y down.
+  /// [rad/step], turns only; positive turns the stored velocity (vx, vy) so that atan2(vy, vx)
+  /// grows: anticlockwise on a plot with y up (AC-CT), clockwise on a screen with y down.
   float turn_rate = 0;
   /// Power spectral density of the driving noise per axis: of acceleration for CV and turns
-  /// [px^2/s^3], of jerk for CA [px^2/s^5].
+  /// [px^2/step^3], of jerk for CA [px^2/step^5].
   float noise = 1e-3f;
 };
 
@@ -42,8 +42,8 @@ struct Propagate {
     std::span<const MotionMode> modes;         ///< 1 to kMaxModes; a particle's larger mode counts
                                                ///< as the last one
     std::span<const float> switching;          ///< modes x modes, row = from; empty if one mode
-    float step = 1;                            ///< [s]
-    float intensity_noise = 0;                 ///< power spectral density q_i [sigma^2/s]
+    float step = 1;                            ///< how far time moves; velocities are per 1
+    float intensity_noise = 0;                 ///< power spectral density q_i [sigma^2/step]
     float intensity_low = 0, intensity_high = 1;
     std::span<const float> noise_scale = {};  ///< per particle, multiplies all its noise's standard
                                               ///< deviations; empty means 1. P-PHD (21)

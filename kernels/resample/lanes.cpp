@@ -103,9 +103,11 @@ GLINT_INLINE void fill_gaps(std::uint32_t* ancestors, std::int32_t length) {
   }
 }
 
-GLINT_INLINE void gather(const std::uint32_t* __restrict source,
-                         const std::uint32_t* __restrict ancestors, std::int32_t count,
-                         std::uint32_t* __restrict destination) {
+/// Four bytes of any type: arrays of floats and of integers move alike.
+using Word [[gnu::may_alias]] = std::uint32_t;
+
+GLINT_INLINE void gather(const Word* __restrict source, const std::uint32_t* __restrict ancestors,
+                         std::int32_t count, Word* __restrict destination) {
   for (std::int32_t j = 0; j < count; ++j) destination[j] = source[ancestors[j]];
 }
 
@@ -128,8 +130,8 @@ void draw(const Rule& rule, const Unit& unit) {
   __builtin_memcpy(unit.ancestors + unit.begin, ancestors,
                    static_cast<std::size_t>(length) * sizeof(std::uint32_t));
   for (std::size_t a = 0; a < unit.arrays; ++a) {
-    gather(static_cast<const std::uint32_t*>(unit.moved[a].source), ancestors, length,
-           static_cast<std::uint32_t*>(unit.moved[a].destination) + unit.begin);
+    gather(static_cast<const Word*>(unit.moved[a].source), ancestors, length,
+           static_cast<Word*>(unit.moved[a].destination) + unit.begin);
   }
 }
 

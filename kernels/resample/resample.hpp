@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -18,6 +20,12 @@ enum class Resampling { systematic, residual };
 struct MovedArray {
   const void* source;
   void* destination;
+
+  /// Copies element `from` of the source to element `to` of the destination, of whatever type.
+  void move(std::size_t from, std::size_t to) const {
+    std::memcpy(static_cast<std::byte*>(destination) + 4 * to,
+                static_cast<const std::byte*>(source) + 4 * from, 4);
+  }
 };
 
 /// Memory that resample keeps from call to call, so that a warm call allocates nothing.

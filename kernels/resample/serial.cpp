@@ -66,11 +66,7 @@ void residual(const Resample::Args& args, Scale scale, int bits, std::uint32_t w
 }
 
 void move(const Resample::Args& args, MovedArray array) {
-  const auto* source = static_cast<const std::uint32_t*>(array.source);
-  auto* destination = static_cast<std::uint32_t*>(array.destination);
-  for (std::size_t j = 0; j < args.ancestors.size(); ++j) {
-    destination[j] = source[args.ancestors[j]];
-  }
+  for (std::size_t j = 0; j < args.ancestors.size(); ++j) array.move(args.ancestors[j], j);
 }
 
 }  // namespace

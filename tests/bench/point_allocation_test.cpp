@@ -10,10 +10,10 @@
 
 #include "counted_allocations.hpp"
 #include "glint/bench/endless_points.hpp"
-#include "glint/engine/trackers/imm_jpda.hpp"
-#include "glint/engine/trackers/imm_pda_ai.hpp"
-#include "glint/engine/trackers/mmpf_pmht.hpp"
-#include "glint/engine/trackers/pmht.hpp"
+#include "glint/engine/trackers/imm_pda_ai/imm_pda_ai.hpp"
+#include "glint/engine/trackers/jpda/imm_jpda.hpp"
+#include "glint/engine/trackers/pmht/mmpf_pmht.hpp"
+#include "glint/engine/trackers/pmht/pmht.hpp"
 
 namespace glint {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "egl.hpp"
-#include "glint/engine/log_parity.hpp"
 #include "glint/engine/scenario/scenes.hpp"
+#include "glint/experiments/log_parity.hpp"
 #include "glint/kernels/core/gl_context.hpp"
 #include "glint/kernels/core/gl_queue.hpp"
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "glint/engine/experiments/scene_run.hpp"
 #include "glint/engine/scenario/scenario.hpp"
-#include "glint/engine/tracks.hpp"
+#include "glint/engine/tracks/track_log.hpp"
+#include "glint/experiments/scene_run.hpp"
 
 namespace glint::test {
 

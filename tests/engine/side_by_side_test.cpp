@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "glint/engine/log_parity.hpp"
 #include "glint/engine/scenario/scenes.hpp"
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/experiments/log_parity.hpp"
 
 namespace glint {
 namespace {

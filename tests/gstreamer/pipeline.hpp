@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "glint/engine/tracks.hpp"
+#include "glint/engine/tracks/track_log.hpp"
 
 namespace glint::test {
 

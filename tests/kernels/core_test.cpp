@@ -169,7 +169,6 @@ TEST(PointSpread, HasTheIntensitiesOfThePapersSnr) {  // P-PHD (5)
   EXPECT_NEAR(wide.intensity_of_snr(8), 7.733, 5e-4);
   EXPECT_NEAR(narrow.intensity_of_snr(13), 10.104, 5e-4);
   EXPECT_NEAR(narrow.intensity_of_snr(11), 8.026, 5e-4);
-  EXPECT_NEAR(wide.snr_of_intensity(wide.intensity_of_snr(9)), 9, 1e-12);
 }
 
 TEST(PointSpread, HasAWindowOfThreeSigmaAndALargest) {

@@ -11,7 +11,7 @@
 #include "glint/kernels/all.hpp"
 #include "glint/kernels/core/gl_context.hpp"
 #include "glint/kernels/core/gl_queue.hpp"
-#include "glint/kernels/core/kept_memory.hpp"
+#include "glint/kernels/core/resident_memory.hpp"
 #include "glint/kernels/parity.hpp"
 #include "glint/kernels/resample/resample.hpp"
 
@@ -42,8 +42,8 @@ TEST(EglLimits, WhatIsKeptIsFetchedForTheProcessorAndSentBack) {
   GLINT_NEEDS_EGL(unused);
   const Device device = with_limit(4096);
   constexpr std::size_t kCount = 5000;
-  KeptArray<float> weights(device), from(device), to(device);
-  KeptArray<std::uint32_t> ancestors(device);
+  ResidentArray<float> weights(device), from(device), to(device);
+  ResidentArray<std::uint32_t> ancestors(device);
   for (auto* array : {&weights, &from, &to}) array->resize(kCount);
   ancestors.resize(kCount);
   for (std::size_t i = 0; i < kCount; ++i) weights.values()[i] = i == 77 ? 1 : 0;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/frames/point_finder.hpp"
+
+#include <numeric>
+
+namespace glint {
+
+void describe(FieldList& list, PointsConfig& c) {
+  list("mode", c.mode, {"local_maximum", "unit_5x5"},
+       "maxima of the matched filter, or blocks of 5x5 pixels that are bright on the mean");
+  list("psf_sigma", c.psf_sigma, 0.1, 2.6, "px", "point spread of the matched filter");
+  list("threshold", c.threshold, -100, 1000, "sigma", "least value of the matched filter");
+  list("radius", c.radius, 1, 100, "px", "a point is the maximum of this neighbourhood");
+  list("unit_threshold", c.unit_threshold, 0, 1e6, "mean intensity of the frame",
+       "a block's mean must exceed this");
+}
+
+PointFinder::PointFinder(const PointsConfig& config, const Device& device)
+    : config_(config), device_(device), filter_(config.psf_sigma, device) {}
+
+void PointFinder::find(const Scan& scan, std::vector<Point>& points) {
+  if (config_.mode == "local_maximum") {
+    filter_.points(scan.whitened.for_kernels(), config_.threshold, config_.radius, points);
+    return;
+  }
+  FindPoints::Args args;
+  args.map = scan.raw.view();
+  args.mode = FindPoints::Mode::unit_5x5;
+  args.threshold = static_cast<float>(config_.unit_threshold * mean(args.map));
+  args.points = &points;
+  args.workspace = &workspace_;
+  device_.run<FindPoints>(args);
+}
+
+/// Row sums, then their sum in row order: the same for any number of threads.
+double PointFinder::mean(FrameView frame) {
+  if (frame.empty()) return 0;
+  row_sums_.resize(static_cast<std::size_t>(frame.height));
+  device_.workers().for_tiles(row_sums_.size(), [&](std::size_t y) {
+    const float* row = frame.row(static_cast<int>(y));
+    row_sums_[y] = std::accumulate(row, row + frame.width, 0.0);
+  });
+  return std::accumulate(row_sums_.begin(), row_sums_.end(), 0.0) /
+         (static_cast<double>(frame.width) * frame.height);
+}
+
+}  // namespace glint

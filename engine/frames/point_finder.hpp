@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+#include "glint/engine/config.hpp"
+#include "glint/engine/frames/matched_filter.hpp"
+#include "glint/engine/scan.hpp"
+#include "glint/kernels/core/device.hpp"
+
+namespace glint {
+
+/// How points are found in single frames; the file section [points].
+struct PointsConfig {
+  std::string mode = "local_maximum";  ///< local_maximum, unit_5x5
+  double psf_sigma = 1.0;              ///< [px] of the matched filter
+  double threshold = 2.0;              ///< [sigma] of the matched filter
+  int radius = 4;                      ///< [px]; a smaller one lets a target give several points
+  double unit_threshold = 1.1;         ///< [mean intensity of the frame]
+};
+void describe(FieldList& list, PointsConfig& config);
+
+/// Points of single frames, as trackers of points and the single-frame baseline take them.
+class PointFinder {
+ public:
+  PointFinder(const PointsConfig& config, const Device& device);
+  /// Replaces `points`, row by row. local_maximum: maxima of the matched filter on `whitened`,
+  /// amplitude in sigmas. unit_5x5: blocks of `raw` whose mean exceeds unit_threshold times the
+  /// frame's, P-HPMHT (20), amplitude in grey levels; none in a scan without `raw`.
+  void find(const Scan& scan, std::vector<Point>& points);
+
+ private:
+  double mean(FrameView frame);
+
+  PointsConfig config_;
+  Device device_;
+  MatchedFilter filter_;
+  PointWorkspace workspace_;
+  std::vector<double> row_sums_;
+};
+
+}  // namespace glint

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "glint/engine/config.hpp"
+#include "glint/engine/trackers/h_pmht/frame_pair_starts.hpp"
+#include "glint/engine/trackers/h_pmht/hpmht_batch.hpp"
+#include "glint/engine/tracks/tracker.hpp"
+#include "glint/kernels/core/device.hpp"
+#include "glint/kernels/core/point_spread.hpp"
+
+namespace glint {
+
+/// Settings of `h-pmht`. The unit of time is the frame interval, whatever the frame rate.
+struct HPmhtConfig {
+  // What the cells show.
+  std::string intensity = "whitened";
+  double noise_threshold = 1;          ///< [sigma]
+  std::string threshold = "subtract";  ///< m2; "keep" is m1
+  double threshold_scale = 1;          ///< multiple of I_Th, P-HPMHT (23)
+  // What a target looks like.
+  double psf_sigma = 1.0;  ///< [px]
+  double snr = 12;         ///< [dB]
+  bool estimate_extent = false;
+  double extent = 0;                         ///< [px^2]; 0 = auto, psf_sigma^2 + 0.25
+  double extent_low = 1, extent_high = 400;  ///< [px^2]
+  // How it moves.
+  double process_noise = 0.2;  ///< [px^2/frame^3]
+  bool estimate_process = false;
+  double position_variance = 1;    ///< [px^2]
+  double velocity_variance = 0.5;  ///< [px^2/frame^2]
+  double speed_max = 4;            ///< [px/frame]
+  double sensor_area = 20;         ///< [px^2]
+  // Expectation maximisation.
+  int batch = 6;  ///< scans
+  int iterations = 3;
+  // How tracks come and go.
+  bool initiate = true;
+  double candidate_ratio = -0.5;
+  int candidates_max = 200;  ///< a frame
+  double separation = 4;     ///< [px]
+  double duplicate = 3;      ///< [px]
+  double confirm_count = 3.3;
+  int confirm_frames = 5;
+  double halt_count = 1.5;
+  int halt_frames = 3;
+};
+void describe(FieldList& f, HPmhtConfig& c);
+
+/// Histogram probabilistic multi-hypothesis tracker, P-HPMHT, over a sliding batch of scans, with
+/// targets that come and go (docs/trackers/h-pmht.md). Tracks enter the log when they are
+/// confirmed; their points are revised as long as they are in the batch.
+class HPmht : public TrackerOf<HPmht> {
+ public:
+  /// Throws ConfigError for settings that do not fit together.
+  HPmht(const HPmhtConfig& config, const Device& device, std::uint64_t seed);
+  Feed feed() const override { return Feed::frames; }
+  /// A confirmed track that is at (x, y) [px] with velocity (vx, vy) [px/frame] at the next scan
+  /// with a frame; the scans after that move it.
+  void start(double x, double y, double vx, double vy) { starts_.push_back({x, y, vx, vy}); }
+  void step(const Scan& scan, TrackLog& log) override;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.batch_, s.window_, s.scans_, s.targets_, s.lives_, s.starts_, s.next_id_,
+                    s.pairs_, s.last_frame_, s.last_time_);
+  }
+  void restored();
+
+ private:
+  struct Start {
+    double x, y, vx, vy;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.x, s.y, s.vx, s.vy);
+    }
+  };
+  struct WindowScan {
+    Frame frame;  ///< keeps the batch's view alive
+    std::int64_t number;
+    double time;
+    double rate;  ///< [frames/s]
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.frame, s.number, s.time, s.rate);
+    }
+  };
+  struct Life {
+    std::int64_t id = 0;  ///< 0 until confirmed
+    bool over = false;
+    template <class Self>
+    static auto fields(Self& s) {
+      return std::tie(s.id, s.over);
+    }
+  };
+
+  void advance(const Scan& scan, const Frame& frame);
+  CellRule rule_of(const Frame& frame);
+  /// A target at `at` one step before scan `first`.
+  BatchTarget target_at(const Start& at, std::size_t first, double proportion) const;
+  void add_starts(TrackLog& log);
+  void add_candidates(const Scan& scan);
+  bool crowded(double x, double y) const;
+  bool follow_one_target(std::size_t older, std::size_t younger) const;
+  void end_duplicates();
+  double mean_count(const BatchTarget& target, int frames) const;
+  void update_lives();
+  TrackPoint point_of(std::size_t k, std::size_t t) const;
+  void report(TrackLog& log);
+  void remove_ended(TrackLog& log);
+  const BatchState& last_state(const BatchTarget& target) const {
+    return target.states[scans_.size() - 1];
+  }
+
+  HPmhtConfig config_;
+  Device device_;
+  HPmhtBatch batch_;
+  std::vector<WindowScan> window_;  // oldest first
+  std::vector<BatchScan> scans_;    // the same scans as the batch sees them
+  std::vector<BatchTarget> targets_;
+  std::vector<Life> lives_;  // one a target; the older first
+  std::vector<Start> starts_;
+  std::int64_t next_id_ = 1;
+  FramePairStarts pairs_;
+  std::vector<float> quantile_workspace_;
+  std::int64_t last_frame_ = -1;
+  double last_time_ = 0;
+};
+
+}  // namespace glint

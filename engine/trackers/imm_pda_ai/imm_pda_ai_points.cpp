@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "glint/engine/frames/intensity_levels.hpp"
+#include "glint/engine/trackers/imm_pda_ai/imm_pda_ai.hpp"
+
+namespace glint {
+
+void ImmPdaAi::measure(const Scan& scan) {
+  measurements_.clear();
+  if (config_.points == "units") return take_units(scan.raw.view());
+  amplitude_threshold_ = std::numeric_limits<double>::infinity();
+  for (const Point& point : scan.points) {
+    // Points whose amplitude is unknown are all alike, and bright enough to start a track.
+    const double amplitude = std::isnan(point.amplitude) ? config_.start_amplitude
+                                                         : static_cast<double>(point.amplitude);
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(amplitude)) continue;
+    measurements_.push_back({{point.x, point.y}, amplitude});
+    amplitude_threshold_ = std::min(amplitude_threshold_, amplitude);
+  }
+}
+
+/// P-HPMHT (20); amplitudes in robust sigmas of all units' means.
+void ImmPdaAi::take_units(FrameView frame) {
+  if (frame.empty()) return;
+  FindPoints::Args args;
+  args.map = frame;
+  args.mode = FindPoints::Mode::unit_5x5;
+  args.threshold = std::numeric_limits<float>::lowest();
+  args.points = &units_;
+  args.workspace = &workspace_;
+  device_.run<FindPoints>(args);
+  const IntensityLevels levels = intensity_levels(frame, levels_);
+  const double threshold =
+      config_.threshold_scale * (config_.threshold == "mean" ? levels.mean : levels.displayed());
+  levels_.clear();
+  for (const Point& unit : units_) levels_.push_back(unit.amplitude);
+  const RobustMoments clutter = robust_moments(levels_);
+  const double sigma = clutter.sigma > 0 ? clutter.sigma : 1;
+  amplitude_threshold_ = (threshold - clutter.median) / sigma;
+  for (const Point& unit : units_) {
+    const double mean = static_cast<double>(unit.amplitude);
+    if (mean < threshold) continue;
+    measurements_.push_back({{unit.x, unit.y}, (mean - clutter.median) / sigma});
+  }
+}
+
+void ImmPdaAi::set_clutter(const Scan& scan) {
+  area_.see(scan);
+  const auto count = static_cast<double>(std::max<std::size_t>(measurements_.size(), 1));
+  clutter_ =
+      config_.clutter_density > 0 ? config_.clutter_density : count / std::max(area_.size(), count);
+}
+
+}  // namespace glint

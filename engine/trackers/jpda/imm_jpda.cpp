@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/jpda/imm_jpda.hpp"
+
+#include "glint/engine/tracks/tracker_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glint {
+namespace {
+
+/// Tracks that are not confirmed are many and short: for them each scan stands alone.
+ImmWindowSettings settings_of(const ImmJpdaConfig& config, int scans) {
+  ImmWindowSettings settings;
+  settings.scans = scans;
+  settings.reading = config.reading == "restart" ? WindowReading::restart : WindowReading::sliding;
+  settings.detection = config.detection, settings.gate = config.gate;
+  settings.events.best_permutation = config.reading == "best";
+  if (config.linearisation == "ukf") settings.linearisation = Linearisation::chords;
+  if (config.clutter == "any") settings.clutter = JpdaClutter::Number::any;
+  return settings;
+}
+
+PointNoise noise_of(const ImmJpdaConfig& config) {
+  return {config.measurement == "range-azimuth", config.measurement_variance, config.range_sd,
+          config.azimuth_sd};
+}
+
+}  // namespace
+
+ImmJpda::ImmJpda(const ImmJpdaConfig& config, const Device&, std::uint64_t /*seed*/)
+    : config_(config),
+      confirmed_{SensorWindow(settings_of(config, config.window), noise_of(config)), {}},
+      tentative_{SensorWindow(settings_of(config, 1), noise_of(config)), {}} {
+  check(config);
+}
+
+void ImmJpda::restored() const {
+  const Imm bank = imm_jpda_bank(config_, {});
+  for (const TrackSet* set : {&confirmed_, &tentative_}) {
+    set->window.require_alike(bank);
+    require_bytes(set->window.targets() == set->tracks.size(), "tracks and targets do not fit");
+    for (const PointTrack& track : set->tracks) require_frame_number(track.last_seen);
+  }
+}
+
+void ImmJpda::TrackSet::add(PointTrack track, const Imm& bank) {
+  window.add(bank);
+  tracks.push_back(std::move(track));
+}
+
+void ImmJpda::TrackSet::remove(std::size_t i) {
+  window.remove(i);
+  tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+/// Tracks that are not confirmed get the points that the confirmed ones leave.
+void ImmJpda::step(const Scan& scan, TrackLog& log) {
+  if (!clock_.started()) log.set_mode_names(imm_jpda_modes(config_));
+  const StepTime at = clock_.tick(scan);
+  elapsed_ = config_.clock == "frames" ? at.step : scan.time - std::exchange(last_time_, scan.time);
+  take_points(scan);
+  offered_.clear();
+  for (std::uint32_t j = 0; j < points_.positions.size(); ++j) offered_.push_back(j);
+  follow(confirmed_, offered_, at);
+  std::erase_if(offered_, [&](std::uint32_t j) { return !points_.free(j); });
+  follow(tentative_, offered_, at);
+  end_duplicates();
+  start_known(at);
+  start_tracks(at);
+  report(confirmed_, at, log);
+  report(tentative_, at, log);
+  move_confirmed();
+}
+
+void ImmJpda::take_points(const Scan& scan) {
+  place_ << scan.sensor_x, scan.sensor_y;
+  points_.take(scan);
+  density_ = config_.clutter_density > 0 ? config_.clutter_density
+                                         : points_.false_density(confirmed_.tracks.size());
+}
+
+/// `points`: numbers of those that the set may have.
+void ImmJpda::follow(TrackSet& set, std::vector<std::uint32_t>& points, const StepTime& at) {
+  if (set.tracks.empty() && config_.reading != "restart") return;
+  seen_.clear();
+  for (const std::uint32_t j : points) seen_.push_back(points_.positions[j]);
+  const MultiscanReport report = set.window.step(seen_, place_, density_, elapsed_);
+  count(report, &set == &confirmed_ && config_.window > 1);
+  update(set, points, at);
+}
+
+void ImmJpda::count(const MultiscanReport& report, bool windowed) {
+  ++scans_, approximate_ += report.scan.approximate > 0;
+  trimmed_ += windowed && report.trimmed > 0, independent_ += windowed && report.independent > 0;
+  largest_ = std::max(largest_, report.scan.largest);
+}
+
+void ImmJpda::update(TrackSet& set, std::span<const std::uint32_t> points, const StepTime& at) {
+  for (std::size_t i = 0; i < set.tracks.size(); ++i) {
+    PointTrack& track = set.tracks[i];
+    track.state = set.window.bank(i).combined();
+    const double missed = set.window.missed(i);
+    double amplitude = 0;
+    for (std::size_t k = 0; k < set.window.gated(i).size(); ++k) {
+      const std::uint32_t j = points[set.window.gated(i)[k]];
+      const double share = set.window.shares(i)[k];
+      points_.claimed[j] += share, amplitude += share * points_.amplitudes[j];
+    }
+    const bool seen = missed < 0.5;
+    if (seen) track.amplitude = amplitude / (1 - missed), track.last_seen = at.frame;
+    // Of the target's points: (1 - P_D) / missed is their likelihood over that of clutter alone.
+    const double ratio = (1 - config_.detection) / std::max(missed, 1e-12);
+    track.life.see(config_.life, seen, ratio, at.step);
+  }
+}
+
+/// Of tracks on one target the older goes on, the confirmed one before the tentative.
+void ImmJpda::end_duplicates() {
+  const auto beside = [&](std::span<const PointTrack> older, const PointTrack& track) {
+    return std::ranges::any_of(older, [&](const PointTrack& other) {
+      return other.near(track.position(), config_.separation);
+    });
+  };
+  const std::span<PointTrack> confirmed(confirmed_.tracks), tentative(tentative_.tracks);
+  for (std::size_t b = 1; b < confirmed.size(); ++b) {
+    PointTrack& younger = confirmed[b];
+    younger.merged = beside(confirmed.first(b), younger) ? younger.merged + 1 : 0;
+    if (config_.merge_scans > 0 && younger.merged >= config_.merge_scans) younger.life.end();
+  }
+  for (std::size_t b = 0; b < tentative.size(); ++b) {
+    if (beside(confirmed, tentative[b]) || beside(tentative.first(b), tentative[b])) {
+      tentative[b].life.end();
+    }
+  }
+}
+
+void ImmJpda::start_known(const StepTime& at) {
+  const double sd = config_.position_sd;
+  for (const Eigen::Vector4d& mean : known_) {
+    const Eigen::Matrix2d p = sd > 0 ? Eigen::Matrix2d(sd * sd * Eigen::Matrix2d::Identity())
+                                     : confirmed_.window.noise_at({mean(0), mean(2)});
+    Gaussian<4> state;
+    state.mean = mean;
+    state.covariance *= config_.velocity_sd * config_.velocity_sd;
+    state.covariance(Eigen::seqN(0, 2, 2), Eigen::seqN(0, 2, 2)) = p;
+    add(confirmed_, state, TrackPoint::kUnknown, at);
+  }
+  known_.clear();
+}
+
+void ImmJpda::add(TrackSet& set, const Gaussian<4>& state, double amplitude, const StepTime& at) {
+  const bool known = &set == &confirmed_;
+  set.add({next_id_++, at.frame, at.frame, TrackLife(config_.life, known), amplitude, state},
+          imm_jpda_bank(config_, state));
+}
+
+bool ImmJpda::crowded(const Eigen::Vector2d& position) const {
+  const auto near = [&](const PointTrack& track) {
+    return track.near(position, config_.separation);
+  };
+  return std::ranges::any_of(confirmed_.tracks, near) ||
+         std::ranges::any_of(tentative_.tracks, near);
+}
+
+/// From two points in a row, which tell the velocity as well as they tell the positions.
+void ImmJpda::start_tracks(const StepTime& at) {
+  if (!config_.initiate) return;
+  const auto pairs = starts_.next(points_, config_.start_amplitude, config_.speed_max * elapsed_);
+  if (!(elapsed_ > 0)) return;
+  Eigen::Matrix2d axis;  // of position and velocity, in units of a position's covariance
+  axis << 1, 1 / elapsed_, 1 / elapsed_, 2 / (elapsed_ * elapsed_);
+  for (const TwoPointStart& pair : pairs) {
+    if (crowded(pair.now.position)) continue;
+    const Eigen::Vector2d velocity = (pair.now.position - pair.before.position) / elapsed_;
+    Gaussian<4> state;
+    state.mean << pair.now.position.x(), velocity.x(), pair.now.position.y(), velocity.y();
+    const Eigen::Matrix2d r = tentative_.window.noise_at(pair.now.position);
+    state.covariance << r(0, 0) * axis, r(0, 1) * axis, r(1, 0) * axis, r(1, 1) * axis;
+    add(tentative_, state, pair.now.amplitude, at);
+  }
+}
+
+/// Lets the dead go, and those that were confirmed join the confirmed.
+void ImmJpda::move_confirmed() {
+  for (TrackSet* set : {&confirmed_, &tentative_}) {
+    for (std::size_t i = set->tracks.size(); i-- > 0;) {
+      if (set->tracks[i].life.over()) set->remove(i);
+    }
+  }
+  for (std::size_t i = 0; i < tentative_.tracks.size();) {
+    if (!tentative_.tracks[i].life.confirmed()) {
+      ++i;
+      continue;
+    }
+    confirmed_.add(tentative_.tracks[i], tentative_.window.bank(i));
+    tentative_.remove(i);
+  }
+}
+
+void ImmJpda::report(TrackSet& set, const StepTime& at, TrackLog& log) {
+  const double rate = config_.clock == "frames" ? at.velocity_scale : 1;
+  for (std::size_t i = 0; i < set.tracks.size(); ++i) {
+    glint::report(set.tracks[i], set.window.bank(i).probability(), at, rate, log);
+  }
+}
+
+std::vector<std::string> ImmJpda::notes() const {
+  std::vector<std::string> notes;
+  const auto of_scans = [this](std::int64_t count) {
+    return std::to_string(count) + " of " + std::to_string(scans_) + " scans";
+  };
+  notes.push_back("largest cluster = " + std::to_string(largest_) + " targets");
+  if (approximate_ > 0)
+    notes.push_back("association by belief propagation in " + of_scans(approximate_));
+  if (trimmed_ > 0)
+    notes.push_back("least likely points left out of the window in " + of_scans(trimmed_));
+  if (independent_ > 0) notes.push_back("scans taken one by one in " + of_scans(independent_));
+  return notes;
+}
+
+template class TrackerOf<ImmJpda>;
+
+}  // namespace glint

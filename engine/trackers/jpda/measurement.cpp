@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/jpda/measurement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace glint {
+namespace {
+
+constexpr double kHair = 1e-9;  // [length]
+
+double away(double distance) { return std::max(distance, kHair); }
+
+template <class Sensor>
+Gaussian<Sensor::kAxes> spread_of(const Sensor& sensor, const Place<Sensor>& position) {
+  const Jacobian<Sensor> back = jacobian(sensor, position).inverse();
+  Gaussian<Sensor::kAxes> result;
+  result.mean = position;
+  result.covariance = back * sensor.noise * back.transpose();
+  symmetrise(result.covariance);
+  return result;
+}
+
+}  // namespace
+
+Eigen::Vector2d expected_measurement(const RangeAzimuth& sensor, const Eigen::Vector2d& position) {
+  const Eigen::Vector2d d = position - sensor.place;
+  return {d.norm(), wrapped(std::atan2(d.y(), d.x()))};
+}
+
+Eigen::Vector3d expected_measurement(const RangeAzimuthElevation& sensor,
+                                     const Eigen::Vector3d& position) {
+  const Eigen::Vector3d d = position - sensor.place;
+  return {d.norm(), wrapped(std::atan2(d.y(), d.x())), std::atan2(d.z(), std::hypot(d.x(), d.y()))};
+}
+
+Eigen::Matrix2d jacobian(const RangeAzimuth& sensor, const Eigen::Vector2d& position) {
+  Eigen::Vector2d d = position - sensor.place;
+  if (d.norm() < kHair) d = {kHair, 0};
+  const double range = d.norm(), square = d.squaredNorm();
+  return (Eigen::Matrix2d() << d.x() / range, d.y() / range,  //
+          -d.y() / square, d.x() / square)
+      .finished();
+}
+
+Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vector3d& position) {
+  Eigen::Vector3d d = position - sensor.place;
+  if (d.head<2>().norm() < kHair) d.head<2>() = Eigen::Vector2d(kHair, 0);
+  const double ground = d.head<2>().norm(), range = d.norm(), square = d.squaredNorm();
+  return (Eigen::Matrix3d() << d.x() / range, d.y() / range, d.z() / range,  //
+          -d.y() / (ground * ground), d.x() / (ground * ground), 0,          //
+          -d.x() * d.z() / (square * ground), -d.y() * d.z() / (square * ground), ground / square)
+      .finished();
+}
+
+Gaussian<2> inverse_measurement(const RangeAzimuth& sensor, const Eigen::Vector2d& measurement) {
+  const double range = away(measurement(0)), azimuth = measurement(1);
+  return spread_of(sensor, sensor.place + range * Eigen::Vector2d(std::cos(azimuth),  //
+                                                                  std::sin(azimuth)));
+}
+
+Gaussian<3> inverse_measurement(const RangeAzimuthElevation& sensor,
+                                const Eigen::Vector3d& measurement) {
+  const double range = away(measurement(0)), azimuth = measurement(1), elevation = measurement(2);
+  const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
+                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+  return spread_of(sensor, sensor.place + range * direction);
+}
+
+}  // namespace glint

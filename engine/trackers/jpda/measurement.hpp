@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <tuple>
+
+#include <Eigen/Core>
+
+#include "glint/engine/filters/gaussian.hpp"
+
+namespace glint {
+
+// What a sensor tells of a position, as a vector of kSize numbers; number kAzimuth of it is an
+// angle in (-pi, pi], -1: none. Azimuth turns from x towards y.
+
+/// The position itself, in the coordinates of the state.
+template <int Axes>
+struct PositionSensor {
+  static constexpr int kAxes = Axes, kSize = Axes, kAzimuth = -1;
+  Eigen::Matrix<double, Axes, Axes> noise = Eigen::Matrix<double, Axes, Axes>::Identity();
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.noise);
+  }
+};
+/// Range [length] and azimuth [rad].
+struct RangeAzimuth {
+  static constexpr int kAxes = 2, kSize = 2, kAzimuth = 1;
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of the sensor
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.noise, s.place);
+  }
+};
+/// Range [length], azimuth and elevation above the plane of x and y [rad].
+struct RangeAzimuthElevation {
+  static constexpr int kAxes = 3, kSize = 3, kAzimuth = 1;
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the sensor
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.noise, s.place);
+  }
+};
+
+template <class Sensor>
+using Measurement = Eigen::Matrix<double, Sensor::kSize, 1>;
+template <class Sensor>
+using Place = Eigen::Matrix<double, Sensor::kAxes, 1>;
+/// Derivative of the measurement by the position.
+template <class Sensor>
+using Jacobian = Eigen::Matrix<double, Sensor::kSize, Sensor::kAxes>;
+
+/// Without noise.
+template <int Axes>
+Eigen::Matrix<double, Axes, 1> expected_measurement(
+    const PositionSensor<Axes>&, const Eigen::Matrix<double, Axes, 1>& position) {
+  return position;
+}
+Eigen::Vector2d expected_measurement(const RangeAzimuth& sensor, const Eigen::Vector2d& position);
+Eigen::Vector3d expected_measurement(const RangeAzimuthElevation& sensor,
+                                     const Eigen::Vector3d& position);
+
+/// Finite everywhere: at the sensor, where there is no direction, as if a hair away from it.
+Eigen::Matrix2d jacobian(const RangeAzimuth& sensor, const Eigen::Vector2d& position);
+Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vector3d& position);
+
+/// Where a measurement saw a target, to first order in the noise: what a track may start from.
+template <int Axes>
+Gaussian<Axes> inverse_measurement(const PositionSensor<Axes>& sensor,
+                                   const Eigen::Matrix<double, Axes, 1>& measurement) {
+  return {measurement, sensor.noise};
+}
+Gaussian<2> inverse_measurement(const RangeAzimuth& sensor, const Eigen::Vector2d& measurement);
+Gaussian<3> inverse_measurement(const RangeAzimuthElevation& sensor,
+                                const Eigen::Vector3d& measurement);
+
+}  // namespace glint

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "glint/engine/trackers/jpda/measurement.hpp"
+
+namespace glint {
+
+/// How a curved measurement is made linear: by its tangent at the predicted position (EKF), or by
+/// chords over the predicted spread (UKF), which keeps the mean and the covariance better where a
+/// far target's position is uncertain across the line of sight.
+enum class Linearisation { tangent, chords };
+
+/// A measurement about a position: its mean and covariance without noise, and its slope.
+template <class Sensor>
+struct LinearMeasurement {
+  Measurement<Sensor> mean;
+  Eigen::Matrix<double, Sensor::kSize, Sensor::kSize> covariance;
+  Jacobian<Sensor> jacobian;
+};
+
+template <class Sensor>
+LinearMeasurement<Sensor> extended(const Sensor& sensor, const Gaussian<Sensor::kAxes>& position) {
+  const Jacobian<Sensor> h = jacobian(sensor, position.mean);
+  return {expected_measurement(sensor, position.mean), h * position.covariance * h.transpose(), h};
+}
+
+/// Unscented transform of the position alone, since nothing else is measured, along the principal
+/// axes of its covariance, so that it may be singular (Julier and Uhlmann 1997, n + kappa = 3).
+template <class Sensor>
+LinearMeasurement<Sensor> unscented(const Sensor& sensor, const Gaussian<Sensor::kAxes>& position) {
+  constexpr int kAxes = Sensor::kAxes;
+  constexpr double kWeight =
+      1.0 / 6;  // the centre, which differs nothing from itself, has the rest
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, kAxes, kAxes>> principal(
+      position.covariance);
+  const Measurement<Sensor> centre = expected_measurement(sensor, position.mean);
+  const auto off = [&](const Place<Sensor>& to) {
+    Measurement<Sensor> difference = expected_measurement(sensor, position.mean + to) - centre;
+    if constexpr (Sensor::kAzimuth >= 0) {
+      difference(Sensor::kAzimuth) = wrapped(difference(Sensor::kAzimuth));
+    }
+    return difference;
+  };
+  const double least = 1e-6 * (1 + position.mean.norm());  // a shorter chord is all rounding
+  Measurement<Sensor> shift = Measurement<Sensor>::Zero();
+  LinearMeasurement<Sensor> result;
+  result.covariance.setZero(), result.jacobian.setZero();
+  for (int i = 0; i < kAxes; ++i) {
+    const double reach = std::max(std::sqrt(3 * std::max(principal.eigenvalues()(i), 0.0)), least);
+    const Place<Sensor> axis = principal.eigenvectors().col(i);
+    const Measurement<Sensor> ahead = off(reach * axis), behind = off(-reach * axis);
+    shift += kWeight * (ahead + behind);
+    result.covariance += kWeight * (ahead * ahead.transpose() + behind * behind.transpose());
+    result.jacobian += (ahead - behind) / (2 * reach) * axis.transpose();
+  }
+  result.covariance -= shift * shift.transpose();
+  result.mean = centre + shift;
+  if constexpr (Sensor::kAzimuth >= 0) {
+    result.mean(Sensor::kAzimuth) = wrapped(result.mean(Sensor::kAzimuth));
+  }
+  return result;
+}
+
+/// Of a state whose axes begin with the position.
+template <class Sensor, int N>
+MeasurementPrediction<N, Sensor::kSize, Sensor::kAzimuth> predict_measurement(
+    const Gaussian<N>& state, const Sensor& sensor, Linearisation how = Linearisation::tangent) {
+  const Gaussian<Sensor::kAxes> position = position_of<Sensor::kAxes>(state);
+  const LinearMeasurement<Sensor> linear =
+      how == Linearisation::tangent ? extended(sensor, position) : unscented(sensor, position);
+  return {linear.mean, linear.covariance + sensor.noise,
+          position_columns<Sensor::kAxes>(state) * linear.jacobian.transpose()};
+}
+template <int Axes, int N>
+PositionPrediction<N, Axes> predict_measurement(const Gaussian<N>& state,
+                                                const PositionSensor<Axes>& sensor,
+                                                Linearisation = Linearisation::tangent) {
+  return predict_position<Axes>(state, sensor.noise);
+}
+
+}  // namespace glint

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/jpda/sensor_window.hpp"
+
+#include <algorithm>
+
+#include "glint/engine/state/fields.hpp"
+
+namespace glint {
+
+SensorWindow::SensorWindow(const ImmWindowSettings& settings, const PointNoise& noise)
+    : measured_(Measured<PositionSensor<2>>{ImmWindow<PositionSensor<2>>(settings), {}}) {
+  if (noise.polar) {
+    RangeAzimuth sensor;
+    sensor.noise.diagonal() << noise.range_sd * noise.range_sd, noise.azimuth_sd * noise.azimuth_sd;
+    measured_ = Measured<RangeAzimuth>{ImmWindow<RangeAzimuth>(settings), sensor};
+  } else {
+    std::get<0>(measured_).sensor.noise *= noise.variance;
+  }
+}
+
+void SensorWindow::add(const Imm& bank) {
+  std::visit([&](auto& m) { m.window.add(bank); }, measured_);
+}
+
+void SensorWindow::remove(std::size_t target) {
+  std::visit([&](auto& m) { m.window.remove(target); }, measured_);
+}
+
+MultiscanReport SensorWindow::step(std::span<const Eigen::Vector2d> points,
+                                   const Eigen::Vector2d& place, double density, double elapsed) {
+  if (auto* positions = std::get_if<0>(&measured_)) {
+    return positions->window.step(points, positions->sensor, density, elapsed);
+  }
+  auto& [window, sensor] = std::get<1>(measured_);
+  sensor.place = place;
+  seen_.clear();
+  double range = 0;
+  for (const Eigen::Vector2d& point : points) {
+    seen_.push_back(expected_measurement(sensor, point));
+    range += seen_.back()(0);
+  }
+  // A square pixel at range r is 1/r wide in azimuth; r of the points on the whole.
+  const double mean = points.empty() ? 1 : std::max(range / double(points.size()), 1e-6);
+  return window.step(seen_, sensor, density * mean, elapsed);
+}
+
+Imm& SensorWindow::bank(std::size_t target) {
+  return std::visit([&](auto& m) -> Imm& { return m.window.bank(target); }, measured_);
+}
+
+double SensorWindow::missed(std::size_t target) const {
+  return std::visit([&](const auto& m) { return m.window.missed(target); }, measured_);
+}
+
+std::span<const std::uint32_t> SensorWindow::gated(std::size_t target) const {
+  return std::visit([&](const auto& m) { return m.window.gated(target); }, measured_);
+}
+
+std::span<const double> SensorWindow::shares(std::size_t target) const {
+  return std::visit([&](const auto& m) { return m.window.shares(target); }, measured_);
+}
+
+std::size_t SensorWindow::targets() const {
+  return std::visit([](const auto& m) { return m.window.targets(); }, measured_);
+}
+
+// The sensor's place comes with every scan that is followed: noise_at() asks for the last one's.
+void SensorWindow::put_to(ByteWriter& to) const {
+  std::visit([&](const auto& m) { put_bytes(to, m.window), put_bytes(to, m.sensor); }, measured_);
+}
+
+void SensorWindow::take_from(ByteReader& from) {
+  std::visit([&](auto& m) { take_bytes(from, m.window), take_bytes(from, m.sensor); }, measured_);
+}
+
+void SensorWindow::require_alike(const Imm& bank) const {
+  std::visit([&](const auto& m) { m.window.require_alike(bank); }, measured_);
+}
+
+Eigen::Matrix2d SensorWindow::noise_at(const Eigen::Vector2d& position) const {
+  return std::visit(
+      [&](const auto& m) {
+        return inverse_measurement(m.sensor, expected_measurement(m.sensor, position)).covariance;
+      },
+      measured_);
+}
+
+}  // namespace glint

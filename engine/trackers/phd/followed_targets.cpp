@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/phd/followed_targets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glint {
+namespace {
+
+// Draws of the targets must not be those of the search.
+constexpr std::uint64_t kTargets = std::uint64_t{0x7A} << 56;
+
+double distance(const Peak& a, const Peak& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+}  // namespace
+
+FollowedTargets::FollowedTargets(const FollowedTargetsConfig& config, const MotionBank& bank,
+                                 const Device& device, std::uint64_t seed)
+    : config_(config),
+      modes_(bank.modes.size()),
+      filters_(bank, config.particles, device, seed ^ kTargets) {}
+
+/// Boxes of pixels are made of where it is.
+void FollowedTarget::restored() const {
+  constexpr double kFar = 1e6;  // [px]
+  constexpr int kMany = 1 << 30;
+  require_bytes(std::abs(estimate.x) < kFar && std::abs(estimate.y) < kFar, "a target is nowhere");
+  require_frame_number(detected), require_frame_number(first_missed);
+  require_bytes(hits >= 0 && hits < kMany && misses >= 0 && misses < kMany,
+                "a target was not seen that often");
+}
+
+void FollowedTargets::restored() const {
+  require_bytes(filters_.size() == targets_.size(), "targets and filters do not fit");
+}
+
+void FollowedTargets::follow(const Frame& z, const StepTime& at, TrackLog& log) {
+  confirmed_now_.clear();
+  filters_.predict(at.frame, at.step);
+  const std::span<const TargetUpdate> updates = filters_.update(z, at.frame);
+  for (std::size_t t = 0; t < targets_.size(); ++t) update_life(targets_[t], updates[t], at.frame);
+  end_duplicates();
+  for (FollowedTarget& target : targets_) report(target, at, log);
+  filters_.resample(at.frame);
+  forget_ended();
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    if (!targets_[t].confirmed && targets_[t].hits >= config_.confirm_hits) {
+      targets_[t].confirmed = true;
+      confirmed_now_.push_back(t);
+      log.confirm(targets_[t].id, targets_[t].detected);
+    }
+  }
+}
+
+void FollowedTargets::update_life(FollowedTarget& target, const TargetUpdate& update,
+                                  std::int64_t frame) const {
+  bool hit = false;
+  if (config_.rule == LifeRule::existence) {
+    const double odds = config_.survival * target.existence * update.mean_ratio;
+    target.existence = odds / (1 + odds);
+    hit = target.existence >= config_.existence;
+  } else {
+    target.existence = std::min(1.0, target.existence * update.mean_ratio);
+    hit = target.existence >= 1;
+    target.ended = target.existence <= config_.miss;
+  }
+  if (update.mean_ratio > 0) target.estimate = update.estimate;
+  if (hit) {
+    ++target.hits;
+    target.misses = 0;
+    return;
+  }
+  if (target.misses++ == 0) target.first_missed = frame;
+  const int patience = target.confirmed ? config_.halt_misses : 1;
+  if (config_.rule == LifeRule::existence) target.ended = target.misses >= patience;
+  target.ended = target.ended || update.mean_ratio <= 0;  // out of view
+}
+
+void FollowedTargets::end_duplicates() {
+  for (std::size_t t = 1; t < targets_.size(); ++t) {
+    for (std::size_t older = 0; older < t && !targets_[t].ended; ++older) {
+      const bool close =
+          distance(targets_[t].estimate, targets_[older].estimate) < config_.separation;
+      if (!close || targets_[older].ended) continue;
+      // One that is being missed has no claim to what another sees.
+      const bool yield = targets_[older].misses > targets_[t].misses && targets_[t].confirmed;
+      (yield ? targets_[older] : targets_[t]).ended = true;
+    }
+  }
+}
+
+void FollowedTargets::report(FollowedTarget& target, const StepTime& at, TrackLog& log) {
+  TrackPoint point = point_of(target.estimate, modes_, at);
+  point.track_id = target.id;
+  point.existence = target.existence;
+  const bool confirmed = target.confirmed || target.hits >= config_.confirm_hits;
+  point.status = confirmed ? TrackStatus::confirmed : TrackStatus::tentative;
+  if (target.ended) {
+    if (target.misses > 0) log.drop(target.id, target.first_missed);
+    if (!target.confirmed) return;
+    point.status = TrackStatus::halted;
+  }
+  log.report(point);
+}
+
+void FollowedTargets::forget_ended() {
+  for (std::size_t t = targets_.size(); t-- > 0;) {
+    if (!targets_[t].ended) continue;
+    filters_.remove(t);
+    targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+}
+
+bool FollowedTargets::detect(const Peak& peak, const Particles& particles,
+                             std::span<const std::uint32_t> members, const StepTime& at,
+                             TrackLog& log) {
+  const bool known = std::ranges::any_of(targets_, [&](const FollowedTarget& target) {
+    return distance(target.estimate, peak) < config_.separation;
+  });
+  if (known) return false;
+  FollowedTarget target;
+  target.id = next_id_++;
+  target.existence = config_.rule == LifeRule::existence ? std::min(1.0, peak.mass) : 1;
+  target.detected = at.frame;
+  target.estimate = peak;
+  filters_.add(particles, members, at.frame);
+  report(target, at, log);
+  targets_.push_back(target);
+  if (config_.confirm_hits <= 1) {
+    targets_.back().confirmed = true;
+    confirmed_now_.push_back(targets_.size() - 1);
+  }
+  return true;
+}
+
+void FollowedTargets::boxes(int half_width, std::vector<Box>& boxes) const {
+  boxes.clear();
+  for (const FollowedTarget& target : targets_) {
+    const int x = static_cast<int>(std::floor(target.estimate.x + 0.5));
+    const int y = static_cast<int>(std::floor(target.estimate.y + 0.5));
+    boxes.push_back({x - half_width, y - half_width, x + half_width + 1, y + half_width + 1});
+  }
+}
+
+}  // namespace glint

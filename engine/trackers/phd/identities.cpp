@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/phd/identities.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "glint/engine/trackers/phd/peaks.hpp"
+
+namespace glint {
+namespace {
+
+double distance(double x0, double y0, double x1, double y1) { return std::hypot(x0 - x1, y0 - y1); }
+
+}  // namespace
+
+Identities::Track* Identities::claim(const Peak& peak, std::span<const std::uint32_t> members,
+                                     const Particles& p) {
+  votes_.clear();
+  for (const auto i : members) {
+    if (p.label[i] == 0) continue;
+    const auto vote = std::find_if(votes_.begin(), votes_.end(),
+                                   [&](const auto& v) { return v.first == p.label[i]; });
+    if (vote == votes_.end()) {
+      votes_.emplace_back(p.label[i], p.weight[i]);
+    } else {
+      vote->second += p.weight[i];
+    }
+  }
+  std::sort(votes_.begin(), votes_.end(), [](const auto& a, const auto& b) {
+    return a.second != b.second ? a.second > b.second : a.first < b.first;
+  });
+  for (const auto& [label, weight] : votes_) {
+    const auto track = std::find_if(tracks_.begin(), tracks_.end(),
+                                    [label = label](const Track& t) { return t.id == label; });
+    // A sliver of another's particles is no claim to its name.
+    if (track != tracks_.end() && !track->seen && weight > 0.1 * peak.mass) return &*track;
+  }
+  return nullptr;
+}
+
+Identities::Track* Identities::lost_near(const Peak& peak) {
+  Track* best = nullptr;
+  double least = config_.reacquire;
+  for (auto& t : tracks_) {
+    const double d = distance(t.x, t.y, peak.x, peak.y);
+    if (!t.seen && d < least) least = d, best = &t;
+  }
+  return best;
+}
+
+bool Identities::crowded(const Peak& peak) const {
+  return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& t) {
+    return t.seen && distance(t.x, t.y, peak.x, peak.y) < config_.separation;
+  });
+}
+
+void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32_t> members,
+                        Particles& particles, std::int64_t frame, double time, double step,
+                        double velocity_scale, std::size_t modes, TrackLog& log) {
+  for (auto& t : tracks_) t.seen = false, t.x += step * t.vx, t.y += step * t.vy;
+  const auto of = [&](const Peak& p) { return members.subspan(p.first, p.last - p.first); };
+  // Known tracks first, so that no new one takes their place.
+  claimed_.assign(peaks.size(), 0);
+  const auto see = [&](Track& t, std::size_t k) {
+    t.seen = true, ++t.hits, t.misses = 0;
+    t.x = peaks[k].x, t.y = peaks[k].y, t.vx = peaks[k].vx, t.vy = peaks[k].vy;
+    claimed_[k] = t.id;
+  };
+  for (std::size_t k = 0; k < peaks.size(); ++k) {
+    if (Track* t = claim(peaks[k], of(peaks[k]), particles)) see(*t, k);
+  }
+  for (std::size_t k = 0; k < peaks.size(); ++k) {
+    if (claimed_[k] != 0) continue;
+    if (Track* t = lost_near(peaks[k])) {
+      see(*t, k);
+    } else if (!crowded(peaks[k])) {
+      tracks_.push_back({next_id_++});
+      see(tracks_.back(), k);
+    }
+  }
+  for (std::size_t k = 0; k < peaks.size(); ++k) {
+    if (claimed_[k] == 0) continue;
+    for (const auto i : of(peaks[k])) particles.label[i] = claimed_[k];
+    const auto t = std::find_if(tracks_.begin(), tracks_.end(),
+                                [&](const Track& u) { return u.id == claimed_[k]; });
+    TrackPoint point = point_of(peaks[k], modes, {frame, time, step, velocity_scale});
+    point.track_id = t->id;
+    point.existence = std::min(1.0, peaks[k].mass);
+    point.status =
+        t->hits >= config_.confirm_hits ? TrackStatus::confirmed : TrackStatus::tentative;
+    log.report(point);
+    if (t->hits == config_.confirm_hits) log.confirm(t->id, 0);
+  }
+  halt_missing(frame, time, velocity_scale, log);
+}
+
+void Identities::halt_missing(std::int64_t frame, double time, double velocity_scale,
+                              TrackLog& log) {
+  for (auto& t : tracks_) {
+    if (t.seen || ++t.misses < config_.halt_misses || t.hits < config_.confirm_hits) continue;
+    TrackPoint end;
+    end.frame = frame, end.time = time, end.track_id = t.id, end.status = TrackStatus::halted;
+    end.x = t.x, end.y = t.y, end.vx = t.vx * velocity_scale, end.vy = t.vy * velocity_scale;
+    log.report(end);
+  }
+  std::erase_if(tracks_, [&](const Track& t) { return t.misses >= config_.halt_misses; });
+}
+
+}  // namespace glint

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/phd/phd_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "glint/engine/trackers/phd/particle_steps.hpp"
+#include "glint/engine/trackers/phd/resident_particles.hpp"
+
+namespace glint {
+namespace {
+
+BirthProposal proposal_of(const std::string& name) {
+  if (name == "uniform") return BirthProposal::uniform;
+  return name == "matched-filter" ? BirthProposal::matched_filter : BirthProposal::two_frame;
+}
+
+std::uint64_t index_of(std::int64_t frame) { return static_cast<std::uint64_t>(frame); }
+
+BirthConfig births_of(const PhdFilterConfig& config) {
+  BirthConfig births;
+  births.proposal = proposal_of(config.birth);
+  births.count = config.birth_particles;
+  births.mass = config.birth_mass;
+  births.threshold = config.birth_threshold;
+  births.speed_max = config.speed_max;
+  return births;
+}
+
+}  // namespace
+
+MotionBank MotionConfig::bank() const {
+  return motion_bank(motion, process_noise, turn_rate * std::numbers::pi / 180);
+}
+
+PhdFilter::PhdFilter(const PhdFilterConfig& config, const Device& device, std::uint64_t seed,
+                     CloudWeight weight)
+    : config_(config),
+      bank_(config.bank()),
+      device_(device),
+      seed_(seed),
+      weight_(weight),
+      appearance_(config),
+      births_(births_of(config), bank_, device, seed),
+      particles_(device),
+      moved_(device),
+      log_ratio_(device),
+      updated_(device),
+      likelihood_(device),
+      ancestors_(device) {}
+
+void PhdFilter::set_appearance(const TargetAppearance& appearance) {
+  appearance_ = appearance;
+  births_.set_appearance(appearance);
+  clear();  // intensities were for another shape
+}
+
+void PhdFilter::restored() const {
+  require_particles(particles_.arrays(), bank_.modes.size());
+  require_bytes(cells_.runs.cell.size() == cells_.cell_sum.size(), "cells and sums do not fit");
+}
+
+void PhdFilter::clear() {
+  particles_.resize(0);
+  expected_ = 0;
+}
+
+Particles& PhdFilter::particles() {
+  if (!fetched_) particles_.fetch();
+  fetched_ = true;
+  return particles_.arrays();
+}
+
+std::span<const std::uint32_t> PhdFilter::labels() {
+  const auto& label = particles_.arrays().label;
+  if (!fetched_) device_.fetch(std::span(label));
+  return label;
+}
+
+void PhdFilter::send_labels() { device_.send(std::span(particles_.arrays().label)); }
+
+void PhdFilter::predict(const Frame& z, std::int64_t frame, double step, const PixelMask& mask,
+                        std::span<const float> noise_scale) {
+  move_particles({bank_, appearance_, device_, seed_}, frame, step, particles_.arrays(),
+                 noise_scale);
+  set_survivors(mask);
+  give_birth(z, frame, step, mask);
+  fetched_ = false;
+}
+
+// P-PHD (11): survivors keep w_{k-1}, times the probability of survival.
+void PhdFilter::set_survivors(const PixelMask& mask) {
+  auto& p = particles_.arrays();
+  const float weight = weight_of_each_ * static_cast<float>(config_.survival);
+  if (mask.empty()) return device_.fill(p.weight, weight);
+  device_.fetch(std::span(p.x)), device_.fetch(std::span(p.y));
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.weight[i] = mask.covers(p.x[i], p.y[i]) ? 0 : weight;
+  }
+  device_.send(std::span(p.weight));
+}
+
+void PhdFilter::give_birth(const Frame& z, std::int64_t frame, double step, const PixelMask& mask) {
+  const std::size_t survivors = particles_.size();
+  particles_.resize(survivors + static_cast<std::size_t>(config_.birth_particles));
+  const std::size_t born =
+      births_.draw({z, frame, step, cells_, config_.clutter, mask}, particles_.arrays(), survivors);
+  particles_.resize(survivors + born);
+}
+
+void PhdFilter::update(const Frame& z, std::int64_t frame) {
+  auto& p = particles_.arrays();
+  const bool odds = weight_ == CloudWeight::odds;
+  log_ratio_.resize(p.size());
+  updated_.resize(p.size());
+  if (odds || config_.resample_on == "likelihood") likelihood_.resize(p.size());
+  weigh_particles({bank_, appearance_, device_, seed_}, z, frame, p, log_ratio_.values());
+  device_.run<CellWeights>({.width = z.width(),
+                            .height = z.height(),
+                            .half_width = appearance_.spread().half_width,
+                            .psi = config_.psi == "cell" ? Psi::cell : Psi::window,
+                            .clutter = static_cast<float>(config_.clutter),
+                            .x = p.x,
+                            .y = p.y,
+                            .predicted = p.weight,
+                            .log_ratio = log_ratio_.values(),
+                            .updated = updated_.values(),
+                            .weighted = likelihood_.values(),
+                            .workspace = &cells_});
+  particles_.swap_weight(updated_);
+  expected_ = total_mass(cells_.runs);
+  if (odds) turn_to_odds();
+  fetched_ = false;
+}
+
+void PhdFilter::turn_to_odds() {
+  constexpr double kMost = 1e8;  // nothing is surer than that
+  const double sum = std::accumulate(cells_.cell_sum.begin(), cells_.cell_sum.end(), 0.0);
+  const auto scale = static_cast<float>(sum > kMost ? kMost / sum : 1);
+  likelihood_.fetch();
+  auto& weight = particles_.arrays().weight;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    weight[i] = likelihood_.values()[i] *= scale;
+  }
+  likelihood_.send();
+  device_.send(std::span(weight));
+  for (std::size_t r = 0; r < cells_.runs.size(); ++r) {
+    cells_.runs.mass[r] = scale * cells_.cell_sum[r];
+  }
+  expected_ = std::min(sum, kMost);
+}
+
+void PhdFilter::remove(std::span<const std::uint32_t> members) {
+  auto& weight = particles().weight;
+  likelihood_.fetch();
+  for (const std::uint32_t i : members) {
+    expected_ -= weight[i];
+    weight[i] = 0;
+    if (!likelihood_.empty()) likelihood_.values()[i] = 0;
+  }
+  device_.send(std::span(weight));
+  likelihood_.send();
+  expected_ = std::max(0.0, expected_);
+}
+
+void PhdFilter::resample(std::int64_t frame) {
+  auto& p = particles_.arrays();
+  const double targets = weight_ == CloudWeight::odds ? 1 : std::max(1.0, std::ceil(expected_));
+  const double wanted =
+      std::min({targets * config_.particles_per_target, static_cast<double>(config_.particles_max),
+                static_cast<double>(p.size())});
+  const std::size_t kept = expected_ > 0 ? static_cast<std::size_t>(wanted) : 0;
+  moved_.resize(kept);
+  ancestors_.resize(kept);
+  if (kept > 0) {
+    const auto moves = moved_particles(p, 0, moved_.arrays(), 0);
+    device_.run<Resample>(
+        {.weights = likelihood_.empty() ? std::span<const float>(p.weight) : likelihood_.values(),
+         .ancestors = ancestors_.values(),
+         .method = config_.resampling == "residual" ? Resampling::residual : Resampling::systematic,
+         .key = random_key(seed_, index_of(frame), Purpose::resample),
+         .moved = moves,
+         .workspace = &draws_});
+    weight_of_each_ = static_cast<float>(expected_ / static_cast<double>(kept));
+    device_.fill(moved_.arrays().weight, weight_of_each_);
+  }
+  std::swap(particles_, moved_);
+  fetched_ = false;
+}
+
+}  // namespace glint

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "glint/engine/config.hpp"
+#include "glint/engine/trackers/phd/adaptive_noise.hpp"
+#include "glint/engine/trackers/phd/identities.hpp"
+#include "glint/engine/trackers/phd/peaks.hpp"
+#include "glint/engine/trackers/phd/phd_filter.hpp"
+#include "glint/engine/tracks/step_clock.hpp"
+#include "glint/engine/tracks/tracker.hpp"
+#include "glint/kernels/core/device.hpp"
+
+namespace glint {
+
+/// Settings of `smc-phd`.
+struct SmcPhdConfig : PhdFilterConfig {
+  // How the cloud becomes targets.
+  std::string states = "peaks";
+  double existence = 0.5;
+  double cluster_radius = 0;    ///< [px]; 0 = auto, half the window
+  double noise_adaptation = 1;  ///< Qmax / Qmin; 1 = fixed
+  IdentityConfig identity;
+};
+void describe(FieldList& f, SmcPhdConfig& c);
+
+/// The tracker of P-PHD section 3.2: process noise that adapts to each target (21) and resampling
+/// on the likelihood (24), with the settings of section 5.1 otherwise those of `smc-phd`.
+struct SmcPhdImprovedConfig : SmcPhdConfig {
+  SmcPhdImprovedConfig() {
+    process_noise = 0.001;
+    noise_adaptation = 50;
+    resample_on = "likelihood";
+  }
+};
+
+/// SMC-PHD track-before-detect, the standard tracker of P-PHD section 3.1 and the improved one of
+/// 3.2, with the corrections that make them work (docs/trackers/smc-phd.md), and identities that
+/// persist.
+class SmcPhd : public TrackerOf<SmcPhd> {
+ public:
+  /// Throws ConfigError for settings that do not fit together.
+  SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t seed);
+  Feed feed() const override { return Feed::frames; }
+  void step(const Scan& scan, TrackLog& log) override;
+  std::vector<std::string> notes() const override { return {appearance_.note()}; }
+
+  /// Expected number of targets after the last step. P-PHD (19)
+  double expected_targets() const { return cloud_.expected(); }
+  std::size_t particle_count() const { return cloud_.size(); }
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.appearance_, s.cloud_, s.identities_, s.noise_, s.clock_);
+  }
+
+ private:
+  void report(const Scan& scan, const StepTime& at, TrackLog& log);
+
+  SmcPhdConfig config_;
+  std::uint64_t seed_;
+  MotionBank bank_;
+  TargetAppearance appearance_;
+  PhdFilter cloud_;
+  PixelMask nothing_;
+  PeakFinder peaks_;
+  std::vector<std::uint32_t> kmeans_members_;
+  Identities identities_;
+  AdaptiveNoise noise_;
+  StepClock clock_;
+};
+
+}  // namespace glint

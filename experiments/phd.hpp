@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "glint/experiments/experiment.hpp"
+
+namespace glint {
+
+// P-PHD section 5 for the conditions and bands of a right implementation. OSPA and GOSPA have a
+// cut-off of 5 px and order 2.
+
+/// Section 5.1, one target at 12, 10 and 8 dB and none: OSPA while the target is present and over
+/// all frames, GOSPA, cardinality error, RMSE, share of frames detected, expected number of
+/// targets. Every state is scored, tracks or not.
+ExperimentResult run_phd_5_1(const ExperimentOptions& options, Workers& workers);
+
+/// Section 5.2, three targets that manoeuvre: mm-phd beside itself with one CV model, figures 4 and
+/// 5.
+ExperimentResult run_phd_5_2(const ExperimentOptions& options, Workers& workers);
+
+/// Section 5.3, every system on the same frames: tables 2 to 4, figures 7 and 8.
+ExperimentResult run_phd_5_3(const ExperimentOptions& options, Workers& workers);
+
+}  // namespace glint

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// imm-jpda on a sensor of range and azimuth.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "glint/engine/trackers/jpda/imm_jpda.hpp"
+
+namespace glint {
+namespace {
+
+ImmJpdaConfig radar(const std::string& linearisation, double range_sd, double azimuth_sd) {
+  ImmJpdaConfig config;
+  config.measurement = "range-azimuth", config.linearisation = linearisation;
+  config.range_sd = range_sd, config.azimuth_sd = azimuth_sd;
+  config.motion = "ncv", config.noise = 0.01;
+  config.initiate = false, config.clutter_density = 1e-7, config.velocity_sd = 0.5;
+  config.life.halt_misses = 0, config.life.halt_existence = 0;
+  return config;
+}
+
+/// Mean squared error [px^2] over scans 5 to 29 of a target that passes along x = -`range` from a
+/// sensor at (7, -3), upwards through azimuth pi.
+double error_of(const ImmJpdaConfig& config, double range, unsigned seed) {
+  constexpr int kScans = 30;
+  ImmJpda tracker(config, Device::serial(), 1);
+  TrackLog log;
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal;
+  tracker.start(7 - range, -3 - 15, 0, 1);
+  double sum = 0;
+  for (int t = 0; t < kScans; ++t) {
+    const double x = -range, y = t - 15;
+    const double r = std::hypot(x, y) + config.range_sd * normal(engine);
+    const double a = std::atan2(y, x) + config.azimuth_sd * normal(engine);
+    const std::vector<Point> points{
+        {static_cast<float>(7 + r * std::cos(a)), static_cast<float>(-3 + r * std::sin(a)), 10}};
+    Scan scan;
+    scan.frame = t, scan.time = t, scan.sensor_x = 7, scan.sensor_y = -3, scan.points = points;
+    tracker.step(scan, log);
+    const auto now = log.at(t);
+    if (now.size() != 1) return NAN;
+    const double dx = now[0].x - 7 - x, dy = now[0].y + 3 - y;
+    if (t >= 5) sum += (dx * dx + dy * dy) / (kScans - 5);
+  }
+  return sum;
+}
+
+double mean_error(const std::string& linearisation, double range, double azimuth_sd) {
+  constexpr int kRuns = 40;
+  double sum = 0;
+  for (unsigned seed = 0; seed < kRuns; ++seed) {
+    sum += error_of(radar(linearisation, 1, azimuth_sd), range, seed) / kRuns;
+  }
+  return sum;
+}
+
+// A point alone errs by 2 px^2.
+TEST(RangeAzimuth, NearAndSharpBothFollowThroughAzimuthPi) {
+  for (const char* how : {"ekf", "ukf"}) EXPECT_LT(mean_error(how, 100, 0.01), 0.7) << how;
+}
+
+// Where an arc of 3 sigma bends away from its tangent by many sigmas of range.
+TEST(RangeAzimuth, WideAndFarChordsBeatTheTangent) {
+  const double tangent = mean_error("ekf", 400, 0.25), chords = mean_error("ukf", 400, 0.25);
+  RecordProperty("tangent", std::to_string(tangent));
+  RecordProperty("chords", std::to_string(chords));
+  EXPECT_LT(chords, 0.8 * tangent) << chords << " against " << tangent;
+}
+
+}  // namespace
+}  // namespace glint

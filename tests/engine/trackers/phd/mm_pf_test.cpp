@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/phd/mm_pf.hpp"
+
+#include <gtest/gtest.h>
+
+#include "engine/dim_targets.hpp"
+
+namespace glint {
+namespace {
+
+using namespace test;
+
+MmPfConfig config_for(double snr) {
+  MmPfConfig c;
+  c.psf_sigma = 0.7, c.jitter = 0;
+  c.snr_low = snr - 2, c.snr_high = snr + 2;
+  c.intensity_walk = 0.03;
+  c.birth_particles = 2000;
+  c.mask_half_width = 0, c.separation = 2;
+  return c;
+}
+
+TEST(MmPf, DeclaresTargetsOneAfterTheOther) {
+  const Scene scene = two_targets(15, 3, 30);
+  const TrackLog log = track<MmPf>(scene, config_for(15));
+  EXPECT_EQ(confirmed_ids(log).size(), 2u);
+  for (const auto& p : log.at(25)) EXPECT_LT(distance_to_truth(scene, p), 1.5);
+}
+
+TEST(MmPf, AStricterTestDeclaresLater) {
+  const Scene scene = one_target(12, 3, 30);
+  MmPfConfig lax = config_for(12), strict = lax;
+  lax.false_probability = 1e-3, strict.false_probability = 1e-9;
+  EXPECT_LT(first_frame(track<MmPf>(scene, lax).online()),
+            first_frame(track<MmPf>(scene, strict).online()));
+}
+
+TEST(MmPf, EndsATrackWhoseTargetVanishes) {
+  const TrackLog log = track<MmPf>(one_target(16, 2, 15), config_for(16));
+  EXPECT_TRUE(any_halted(log));
+  EXPECT_TRUE(log.at(25).empty());
+}
+
+TEST(MmPf, DeclaresLittleInNoise) { EXPECT_LE(declared_in_noise<MmPf>(config_for(10), 40, 5), 1u); }
+
+TEST(MmPf, TakesEmptyAndTinyFrames) {
+  MmPf tracker(MmPfConfig{}, Device::serial(), 1);
+  TrackLog log;
+  tracker.step(Scan{}, log);
+  Scan scan;
+  scan.whitened = Frame(Image<float>(3, 2));
+  tracker.step(scan, log);
+  EXPECT_TRUE(log.online().empty());
+}
+
+}  // namespace
+}  // namespace glint

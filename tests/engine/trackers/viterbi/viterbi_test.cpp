@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/viterbi/viterbi.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "engine/dim_targets.hpp"
+
+namespace glint {
+namespace {
+
+using namespace test;
+
+/// A window of 5 stages over a 30x20 frame of this score with a straight path of 10 a stage in it.
+PathWindow window_with_path(const Device& device, int first, int last, float elsewhere = -1) {
+  PathWindow window(5, 3, device);
+  for (int k = 0; k < 5; ++k) {
+    const ImageView<float> map = window.next(30, 20);
+    for (int y = 0; y < 20; ++y) std::fill_n(map.row(y), 30, elsewhere);
+    if (k >= first && k < last) map(5 + 2 * k, 4 + k) = 10;
+    window.push({3, 5});  // in a flat first stage ties set the move
+  }
+  return window;
+}
+
+TEST(PathWindow, TracesThePathBack) {
+  PathWindow window = window_with_path(Device::tbb(1), 0, 5);
+  const auto paths = window.find(30);
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_EQ(paths[0].total, 50);
+  EXPECT_EQ(paths[0].first, 0u);
+  EXPECT_EQ(paths[0].last, 5u);
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_EQ(paths[0].cells[static_cast<std::size_t>(k)].x, 5 + 2 * k);
+    EXPECT_EQ(paths[0].cells[static_cast<std::size_t>(k)].y, 4 + k);
+  }
+}
+
+TEST(PathWindow, TrimsStagesThatShowNothing) {
+  PathWindow window = window_with_path(Device::tbb(1), 1, 4);
+  const auto paths = window.find(20);
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_EQ(paths[0].first, 1u);
+  EXPECT_EQ(paths[0].last, 4u);
+}
+
+TEST(PathWindow, KeepsNoPathUnderTheThresholdOrOfAWindowThatIsNotFull) {
+  PathWindow window = window_with_path(Device::tbb(1), 0, 2);
+  EXPECT_TRUE(window.find(20).empty());
+  PathWindow other(2, 3, Device::tbb(1));
+  other.next(4, 4), other.push({});
+  EXPECT_FALSE(other.full());
+}
+
+TEST(PathWindow, AnotherSizeStartsAnew) {
+  PathWindow window = window_with_path(Device::tbb(1), 0, 5);
+  window.next(8, 8), window.push({});
+  EXPECT_FALSE(window.full());
+}
+
+ViterbiConfig config_for(double snr) {
+  ViterbiConfig c;
+  c.psf_sigma = 0.7;
+  c.snr_low = snr - 2, c.snr_high = snr + 2;
+  c.speed_max = 2;
+  return c;
+}
+
+std::map<std::int64_t, std::vector<TrackPoint>> by_track(const std::vector<TrackPoint>& points) {
+  std::map<std::int64_t, std::vector<TrackPoint>> tracks;
+  for (const TrackPoint& p : points) tracks[p.track_id].push_back(p);
+  return tracks;
+}
+
+TEST(Viterbi, FollowsEachTargetUnderOneIdentityFromItsBirth) {
+  const Scene scene = two_targets(16, 3, 30);
+  const auto tracks = by_track(track<Viterbi>(scene, config_for(16)).revised());
+  ASSERT_EQ(tracks.size(), 2u);
+  for (const auto& [id, points] : tracks) {
+    EXPECT_NEAR(static_cast<double>(points.front().frame), 3, 1);
+    EXPECT_EQ(points.back().frame, 29);
+    for (const TrackPoint& p : points) EXPECT_LT(distance_to_truth(scene, p), 2) << p.frame;
+  }
+}
+
+TEST(Viterbi, ReportsNothingBeforeItsWindowIsFull) {
+  const TrackLog log = track<Viterbi>(one_target(18, 0, 30), config_for(18));
+  EXPECT_EQ(log.online().front().frame, 7);
+  EXPECT_EQ(log.revised().front().frame, 0);
+}
+
+TEST(Viterbi, KnowsTheVelocity) {
+  Scene scene = scene_of({target(0, 30, {6, 8, 1.8, 0.6}, 18)});
+  scene.interval = 0.5;
+  double sum = 0, count = 0;
+  for (const TrackPoint& p : track<Viterbi>(scene, config_for(18)).revised()) sum += p.vx, ++count;
+  EXPECT_NEAR(sum / count, 1.8, 0.15);
+}
+
+TEST(Viterbi, EndsATrackSoonAfterItsTargetHasVanished) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const TrackLog log = track<Viterbi>(one_target(16, 2, 15), config_for(16), seed);
+    const auto online = log.online();
+    ASSERT_EQ(std::ranges::count(online, TrackStatus::halted, &TrackPoint::status), 1);
+    const TrackPoint& halt = online.back();
+    EXPECT_EQ(halt.status, TrackStatus::halted);
+    EXPECT_EQ(halt.frame, log.revised().back().frame + ViterbiConfig{}.halt_frames);
+    EXPECT_NEAR(static_cast<double>(log.revised().back().frame), 14, 1);
+  }
+}
+
+TEST(Viterbi, HaltsAsConfigured) {
+  ViterbiConfig soon = config_for(16), late = soon;
+  soon.halt_frames = 2,
+  late.halt_frames = 32;  // 6: then the window shows less than 3 of its points
+  const auto halted = [](const ViterbiConfig& config) {
+    return track<Viterbi>(one_target(16, 2, 15), config).online().back().frame;
+  };
+  EXPECT_EQ(halted(late) - halted(soon), 4);
+}
+
+// Two frames of a bright target exceed the threshold of the whole window.
+TEST(Viterbi, WhatABrightTargetLeavesInTheWindowIsNoNewTrack) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const TrackLog log = track<Viterbi>(one_target(22, 2, 15), config_for(22), seed);
+    EXPECT_EQ(ids(log.revised()).size(), 1u);
+    EXPECT_EQ(ids(log.online()).size(), 1u);
+  }
+}
+
+TEST(Viterbi, AFlashIsNoTrack) {
+  const TrackLog log = track<Viterbi>(one_target(22, 10, 12), config_for(22));
+  EXPECT_TRUE(log.online().empty());
+  EXPECT_TRUE(log.revised().empty());
+}
+
+TEST(Viterbi, DeclaresLittleInNoise) {
+  EXPECT_LE(declared_in_noise<Viterbi>(config_for(12), 40, 5), 1u);
+}
+
+TEST(Viterbi, AHigherThresholdDeclaresLater) {
+  ViterbiConfig lax = config_for(12), strict = lax;
+  lax.threshold = 15, strict.threshold = 45;
+  const Scene scene = one_target(12, 10, 30);
+  EXPECT_LT(first_frame(track<Viterbi>(scene, lax).online()),
+            first_frame(track<Viterbi>(scene, strict).online()));
+}
+
+TEST(Viterbi, TakesEmptyAndTinyFrames) {
+  Viterbi tracker(ViterbiConfig{}, Device::serial(), 1);
+  TrackLog log;
+  tracker.step(Scan{}, log);
+  for (int k = 0; k < 10; ++k) {
+    Scan scan;
+    scan.frame = k;
+    scan.whitened = Frame(Image<float>(3, 2));
+    tracker.step(scan, log);
+  }
+  EXPECT_TRUE(log.online().empty());
+}
+
+TEST(Viterbi, RefusesACommonStretchLongerThanItsWindow) {
+  ViterbiConfig config;
+  config.window = 4, config.common_frames = 5;
+  EXPECT_THROW(Viterbi(config, Device::serial(), 1), ConfigError);
+}
+
+}  // namespace
+}  // namespace glint

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "glint/experiments/experiment.hpp"
+
+namespace glint {
+namespace {
+
+ExperimentResult short_run_of(const char* experiment) {
+  Workers workers;
+  ExperimentOptions options;
+  options.runs = 3;
+  options.seed = 5000;
+  return run_experiment(find_experiment(experiment), options, workers);
+}
+
+TEST(HPmhtTable2, EveryFigureIsInItsBand) {
+  int banded = 0;
+  for (const ExperimentRow& r : short_run_of("hpmht-table2").rows) {
+    if (!r.band) continue;
+    ++banded;
+    // Three runs: a tenth of a pixel and one scan of sixty leave room for chance.
+    const double slack = r.metric.front() == 'h' ? 2 : 0.3;
+    const Band widened{r.band->low ? std::optional(*r.band->low - slack) : std::nullopt,
+                       r.band->high ? std::optional(*r.band->high + slack) : std::nullopt};
+    EXPECT_TRUE(widened.holds(r.ours)) << r.name << ", " << r.metric << ": " << r.ours;
+  }
+  EXPECT_EQ(banded, 21);
+}
+
+TEST(HPmhtTable3, AThresholdTooLowLosesTheDimTarget) {
+  double low = -1, high = -1;
+  for (const ExperimentRow& r : short_run_of("hpmht-table3").rows) {
+    if (r.metric.front() != 'h') continue;
+    if (r.name == "h-pmht, scenario 4 at .9 I_Th") low = r.ours;
+    if (r.name == "h-pmht, scenario 4 at 1.1 I_Th") high = r.ours;
+  }
+  EXPECT_GE(low, 0);
+  EXPECT_LE(low, high - 30);
+}
+
+}  // namespace
+}  // namespace glint

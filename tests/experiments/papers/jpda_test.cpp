@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "glint/experiments/experiment.hpp"
+
+namespace glint {
+namespace {
+
+ExperimentResult run_of(const char* experiment, int runs) {
+  Workers workers;
+  ExperimentOptions options;
+  options.runs = runs, options.seed = 5000;
+  return run_experiment(find_experiment(experiment), options, workers);
+}
+
+double figure(const ExperimentResult& result, const std::string& name, const std::string& metric) {
+  for (const ExperimentRow& row : result.rows) {
+    if (row.name == name && row.metric == metric) return row.ours;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// Means hang on the few tracks that are lost, so they are judged by the median and by loss.
+TEST(JpdaFig2, AWindowLosesFewerTracksThanASingleScan) {
+  const ExperimentResult result = run_of("jpda-fig2", 200);
+  const char* lost = "tracks lost [%]";
+  for (const char* reading : {"single scan", "A", "C", "C*"}) {
+    const double median = figure(result, reading, "its median [m]");
+    EXPECT_TRUE(median > 70 && median < 79) << reading << ": " << median;
+  }
+  EXPECT_LT(figure(result, "single scan", lost), 2.5);
+  EXPECT_LE(figure(result, "C*", lost), 0.5);
+  EXPECT_LE(figure(result, "C*", lost), figure(result, "single scan", lost));
+  EXPECT_LT(figure(result, "C*", "ln of rms over single scan"), 0);
+  EXPECT_EQ(result.curves.size(), 4u);
+}
+
+TEST(JpdaCoalescence, TheBestPermutationBringsMergedTargetsApart) {
+  const ExperimentResult result = run_of("jpda-coalescence", 40);
+  EXPECT_TRUE(bands_hold(result));
+  const char* after = "OSPA after [m]";
+  EXPECT_LT(figure(result, "C*", after), figure(result, "C", after) - 1);
+  EXPECT_LT(figure(result, "C*", after), figure(result, "single scan", after));
+}
+
+}  // namespace
+}  // namespace glint

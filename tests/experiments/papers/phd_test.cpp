@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "glint/experiments/experiment.hpp"
+
+namespace glint {
+namespace {
+
+constexpr int kRuns = 12;
+
+/// A short run, on seeds that `glint experiment` does not use by default.
+ExperimentResult short_run_of(const char* experiment) {
+  Workers workers;
+  ExperimentOptions options;
+  options.runs = kRuns;
+  options.seed = 5000;
+  return run_experiment(find_experiment(experiment), options, workers);
+}
+
+const ExperimentResult& short_run() {
+  static const ExperimentResult kResult = short_run_of("phd-5.1");
+  return kResult;
+}
+
+/// The number of figures with a band; those outside by more than three standard errors fail.
+int expect_in_bands(const ExperimentResult& result) {
+  int banded = 0;
+  for (const ExperimentRow& r : result.rows) {
+    if (!r.band) continue;
+    ++banded;
+    const double slack = 3 * r.spread / std::sqrt(kRuns);
+    const Band widened{r.band->low ? std::optional(*r.band->low - slack) : std::nullopt,
+                       r.band->high ? std::optional(*r.band->high + slack) : std::nullopt};
+    EXPECT_TRUE(widened.holds(r.ours)) << r.name << ", " << r.metric << ": " << r.ours;
+  }
+  return banded;
+}
+
+const ExperimentRow& row(const ExperimentResult& result, const std::string& name,
+                         const std::string& metric) {
+  for (const ExperimentRow& r : result.rows) {
+    if (r.name == name && r.metric == metric) return r;
+  }
+  throw std::runtime_error("no row " + name + ", " + metric);
+}
+const ExperimentRow& row(const std::string& name, const std::string& metric) {
+  return row(short_run(), name, metric);
+}
+
+double ospa_of(const std::string& name) { return row(name, "OSPA while present [px]").ours; }
+
+TEST(PhdSection51, EveryFigureIsInItsBandWithinThreeStandardErrors) {
+  EXPECT_EQ(expect_in_bands(short_run()), 29);
+}
+
+TEST(PhdSection51, TwoFrameBirthBeatsUniformBirth) {
+  for (const std::string level : {"12 dB", "10 dB", "8 dB"}) {
+    EXPECT_LE(ospa_of("two-frame, " + level), ospa_of("standard, " + level) - 0.3) << level;
+  }
+}
+
+TEST(PhdSection51, TheFormulasAsPrintedFail) {
+  for (const std::string level : {"12 dB", "10 dB", "8 dB"}) {
+    EXPECT_GE(ospa_of("literal standard, " + level), 4.2) << level;
+    EXPECT_GE(row("literal standard, " + level, "n, frames 15-24").ours, 3) << level;
+  }
+}
+
+TEST(PhdSection51, ErrorsStayBelowThePixelAndGrowAsTheTargetDims) {
+  double last = 0;
+  for (const std::string level : {"12 dB", "10 dB", "8 dB"}) {
+    EXPECT_LE(row("two-frame, " + level, "RMSE [px]").ours, 0.95) << level;
+    EXPECT_GE(ospa_of("two-frame, " + level), last) << level;
+    last = ospa_of("two-frame, " + level);
+  }
+}
+
+TEST(PhdSection51, TheImprovedTrackerBeatsTheStandardOne) {
+  EXPECT_LE(ospa_of("improved, 10 dB"), ospa_of("standard, 10 dB") - 0.25);
+}
+
+TEST(PhdSection52, EveryFigureIsInItsBandWithinThreeStandardErrors) {
+  EXPECT_EQ(expect_in_bands(short_run_of("phd-5.2")), 10);
+}
+
+TEST(PhdSection53, EveryFigureIsInItsBandWithinThreeStandardErrors) {
+  EXPECT_GE(expect_in_bands(short_run_of("phd-5.3")), 8);
+}
+
+}  // namespace
+}  // namespace glint
