@@ -36,7 +36,7 @@ void TargetAppearance::set(double psf_sigma) {
   set_ = true;
 }
 
-// The first frames are no guide: their background is not known yet, and its structure passes for
+// The first frames are not used: their background is not known yet, and its structure looks like
 // targets.
 bool TargetAppearance::look_at(const Scan& scan) {
   constexpr int kSettling = 15;

@@ -11,8 +11,8 @@ const AdaptiveNoise::Target* AdaptiveNoise::find(std::uint32_t label) const {
   return at != targets_.end() && at->label == label ? &*at : nullptr;
 }
 
-void AdaptiveNoise::learn(std::span<const Peak> clusters, std::span<const std::uint32_t> members,
-                          const Particles& particles) {
+void AdaptiveNoise::update(std::span<const Peak> clusters, std::span<const std::uint32_t> members,
+                           const Particles& particles) {
   if (range_ <= 1) return;
   next_.clear();
   for (const Peak& cluster : clusters) {

@@ -10,19 +10,19 @@
 
 namespace glint {
 
-/// Process noise that follows each target: more as its cloud shrinks, less as it spreads.
-/// P-PHD (21), with the determinant of the position covariance, for targets by the label that
-/// their particles carry. The formula acts like a switch between Qmin and Qmax.
+/// Process noise Q of each target: more as its particles contract, less as they spread. P-PHD (21),
+/// with the determinant of the position covariance; a target is known by its particles' label. The
+/// formula acts like a switch between Qmin and Qmax.
 class AdaptiveNoise {
  public:
   /// `range` is Qmax / Qmin >= 1; 1 keeps Q at Qmin.
   explicit AdaptiveNoise(double range) : range_(range) {}
 
-  /// Takes the clusters of this frame; `particles.label` holds the label of each cluster's members.
-  /// Labels that no cluster carries are forgotten, new ones start at Qmin; a degenerate covariance
+  /// Updates Q from the clusters of this frame; `particles.label` holds the label of each cluster's
+  /// members. Labels without a cluster are removed, new ones start at Qmin; a singular covariance
   /// leaves Q as it is.
-  void learn(std::span<const Peak> clusters, std::span<const std::uint32_t> members,
-             const Particles& particles);
+  void update(std::span<const Peak> clusters, std::span<const std::uint32_t> members,
+              const Particles& particles);
   bool fixed() const { return range_ <= 1; }
   /// sqrt(Q / Qmin) of each particle by its label; empty if Q is fixed. Valid until the next call.
   std::span<const float> scales(std::span<const std::uint32_t> labels);

@@ -7,16 +7,17 @@
 namespace glint {
 namespace {
 
-// Draws of the past must not be those of the present.
+// The backward pass must not draw the same random numbers as the targets.
 constexpr std::uint64_t kBackward = std::uint64_t{0xB5} << 56;
 
 }  // namespace
 
-BackwardPass::BackwardPass(const FollowedTargetsConfig& config, const MotionBank& bank, int frames,
-                           const Device& device, std::uint64_t seed)
+BackwardPass::BackwardPass(const FollowedTargetsConfig& config, const MotionConfig& motion,
+                           int frames, const Device& device, std::uint64_t seed)
     : config_(config),
-      modes_(bank.modes.size()),
-      filters_(reversed(bank), config.particles, device, seed ^ kBackward),
+      survival_(motion.survival),
+      modes_(motion.bank().modes.size()),
+      filters_(reversed(motion.bank()), config.target_particles, device, seed ^ kBackward),
       // The detection lies confirm_hits - 1 frames before the confirmation.
       capacity_(frames > 0 ? static_cast<std::size_t>(frames + config.confirm_hits) : 0) {}
 
@@ -37,11 +38,11 @@ void BackwardPass::restored() const {
   const bool full = past_.size() == capacity_;
   require_bytes(past_.size() <= capacity_ &&
                     (full ? next_ < std::max<std::size_t>(capacity_, 1) : next_ == past_.size()),
-                "the past has no such frame");
-  for (const Past& past : past_) require_bytes(bool{past.z}, "a frame of the past is missing");
+                "the stored frames are not that many");
+  for (const Past& past : past_) require_bytes(bool{past.z}, "a stored frame is missing");
 }
 
-bool BackwardPass::meets_another(const Past& past, const Peak& estimate, std::uint32_t id) const {
+bool BackwardPass::near_another(const Past& past, const Peak& estimate, std::uint32_t id) const {
   return std::ranges::any_of(past.targets, [&](const Position& other) {
     return other.id != id &&
            std::hypot(other.x - estimate.x, other.y - estimate.y) < config_.separation;
@@ -57,7 +58,7 @@ void BackwardPass::trace(const FollowedTargets& targets, std::size_t t, std::int
   std::int64_t frame = now;
   double existence = 1;
   int misses = 0;
-  std::vector<TrackPoint> missed;  // stand only if the target is seen again before them
+  std::vector<TrackPoint> missed;  // reported only if there is a hit in an earlier frame
   for (std::size_t back = 1; back <= past_.size(); ++back) {
     const Past& past = past_[(next_ + past_.size() - back) % past_.size()];
     filters_.predict(past.at.frame, static_cast<double>(frame - past.at.frame));
@@ -65,10 +66,10 @@ void BackwardPass::trace(const FollowedTargets& targets, std::size_t t, std::int
     const TargetUpdate& update = filters_.update(past.z, frame)[0];
     if (update.mean_ratio <= 0) return;
     if (frame < target.detected) {
-      const double odds = config_.survival * existence * update.mean_ratio;
+      const double odds = survival_ * existence * update.mean_ratio;
       existence = odds / (1 + odds);
       misses = existence >= config_.existence ? 0 : misses + 1;
-      if (misses >= config_.halt_misses || meets_another(past, update.estimate, target.id)) return;
+      if (misses >= config_.halt_misses || near_another(past, update.estimate, target.id)) return;
       TrackPoint point = point_of(update.estimate, modes_, past.at);
       point.vx = -point.vx, point.vy = -point.vy;
       point.track_id = target.id, point.status = TrackStatus::confirmed;

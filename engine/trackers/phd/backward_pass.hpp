@@ -9,20 +9,20 @@
 namespace glint {
 
 /// Follows a newly confirmed target back to where it came from. P-PHD (25)-(27), with F^-1 and the
-/// Markov chain reversed; from the cloud at confirmation, not at detection: that one was chosen for
-/// fitting the very frames before detection that are to be judged.
+/// Markov chain reversed. It starts from the particles at confirmation: those at detection were
+/// selected because they fit the frames just before it, noise included.
 class BackwardPass {
  public:
-  /// Goes at most `frames` back; 0 = never.
-  BackwardPass(const FollowedTargetsConfig& config, const MotionBank& bank, int frames,
+  /// Goes at most `frames` frames back beyond the detection; 0 = no backward pass.
+  BackwardPass(const FollowedTargetsConfig& config, const MotionConfig& motion, int frames,
                const Device& device, std::uint64_t seed);
   void set_appearance(const TargetAppearance& appearance) { filters_.set_appearance(appearance); }
 
-  /// Takes a frame and where the targets were in it, after the targets have been followed.
+  /// Stores a frame and the positions of the targets in it; call it after
+  /// FollowedTargets::follow().
   void remember(const Frame& z, const StepTime& at, std::span<const FollowedTarget> targets);
-  /// Adds the points before detection of target `t`, confirmed in frame `now`, to the revised
-  /// record. Ends where the target is missed as often as halts a track, or comes upon another
-  /// track.
+  /// Adds the points of target `t`, confirmed in frame `now`, before its detection to the revised
+  /// record. Ends at `halt_misses` misses in a row or nearer than `separation` to another track.
   void trace(const FollowedTargets& targets, std::size_t t, std::int64_t now, TrackLog& log);
 
   template <class Self>
@@ -49,14 +49,15 @@ class BackwardPass {
       return std::tie(s.z, s.at, s.targets);
     }
   };
-  bool meets_another(const Past& past, const Peak& estimate, std::uint32_t id) const;
+  bool near_another(const Past& past, const Peak& estimate, std::uint32_t id) const;
 
   FollowedTargetsConfig config_;
+  double survival_;
   std::size_t modes_;
   TargetFilters filters_;
   std::size_t capacity_;
-  std::vector<Past> past_;  ///< a ring
-  std::size_t next_ = 0;    ///< where the next frame goes
+  std::vector<Past> past_;  // a ring of `capacity_` frames
+  std::size_t next_ = 0;    // index of the next frame in it
 };
 
 }  // namespace glint

@@ -20,6 +20,11 @@ namespace {
 
 constexpr std::size_t kBirthTile = 512;
 
+BirthProposal proposal_of(const std::string& name) {
+  if (name == "uniform") return BirthProposal::uniform;
+  return name == "matched-filter" ? BirthProposal::matched_filter : BirthProposal::two_frame;
+}
+
 /// Pixels above the threshold, as flat indices.
 void cells_above(FrameView z, double threshold, std::vector<std::uint32_t>& cells) {
   cells.clear();
@@ -46,10 +51,17 @@ double window_sum(const CellWorkspace& cells, int width, int height, int half_wi
 
 }  // namespace
 
-Births::Births(const BirthConfig& config, const MotionBank& bank, const Device& device,
+Births::Births(const BirthConfig& config, const MotionConfig& motion, const Device& device,
                std::uint64_t seed)
-    : config_(config), bank_(bank), device_(device), seed_(seed), now_(device), before_(device) {
-  cells_.reserve(static_cast<std::size_t>(config.count));
+    : config_(config),
+      proposal_(proposal_of(config.birth)),
+      speed_max_(motion.speed_max),
+      birth_mode_(motion.bank().birth),
+      device_(device),
+      seed_(seed),
+      now_(device),
+      before_(device) {
+  cells_.reserve(static_cast<std::size_t>(config.birth_particles));
 }
 
 void Births::set_appearance(const TargetAppearance& appearance) {
@@ -62,16 +74,16 @@ void Births::set_appearance(const TargetAppearance& appearance) {
 void BirthFrame::restored() const {
   const auto pixels =
       static_cast<std::size_t>(whitened.width()) * static_cast<std::size_t>(whitened.height());
-  require_bytes(score.size() == pixels, "births do not fit their frame");
+  require_bytes(score.size() == pixels, "birth scores do not fit their frame");
   require_bytes(
       std::ranges::all_of(score.values(), [](float s) { return s >= 0 && std::isfinite(s); }),
-      "a birth score is no such number");
+      "a birth score is negative or not finite");
 }
 
 std::uint32_t Births::draw_mode(std::uint32_t word) const {
   float u = uniform(word);
   std::uint32_t mode = 0;
-  while (mode + 1 < bank_.birth.size() && u >= bank_.birth[mode]) u -= bank_.birth[mode++];
+  while (mode + 1 < birth_mode_.size() && u >= birth_mode_[mode]) u -= birth_mode_[mode++];
   return mode;
 }
 
@@ -81,7 +93,7 @@ float Births::draw_intensity(std::uint32_t word) const {
   return static_cast<float>(intensity_low_ * std::pow(ratio, uniform(word)));
 }
 
-void Births::look_at(const Frame& z, const PixelMask& mask) {
+void Births::score(const Frame& z, const PixelMask& mask) {
   const FrameView view = z.for_kernels();
   std::swap(now_, before_);
   now_.whitened = z;
@@ -89,7 +101,7 @@ void Births::look_at(const Frame& z, const PixelMask& mask) {
   if (map_.width() != view.width || map_.height() != view.height) {
     map_ = ResidentImage<float>(view.width, view.height, device_);
   }
-  const std::span<float> score = now_.score.values();
+  const std::span<float> scores = now_.score.values();
   row_sums_.resize(static_cast<std::size_t>(view.height));
   const auto intensity = static_cast<float>(std::sqrt(double{intensity_low_} * intensity_high_));
   device_.run<PixelLikelihood>(
@@ -101,25 +113,25 @@ void Births::look_at(const Frame& z, const PixelMask& mask) {
                             .energy = static_cast<float>(energy * energy),
                             .intensity_low = intensity_low_,
                             .intensity_high = intensity_high_,
-                            .score = {score.data(), view.width, view.height, view.width},
+                            .score = {scores.data(), view.width, view.height, view.width},
                             .masked = mask.boxes(),
                             .row_sums = row_sums_});
   now_.total = std::accumulate(row_sums_.begin(), row_sums_.end(), 0.0);
 }
 
 std::size_t Births::draw(const BirthScan& scan, Particles& particles, std::size_t at) {
-  if (config_.proposal == BirthProposal::uniform) return draw_uniform(scan, particles, at);
-  look_at(scan.z, scan.mask);
+  if (proposal_ == BirthProposal::uniform) return draw_uniform(scan, particles, at);
+  score(scan.z, scan.mask);
   if (now_.total <= 0) return 0;
-  if (config_.proposal == BirthProposal::matched_filter) return draw_matched(scan, particles, at);
+  if (proposal_ == BirthProposal::matched_filter) return draw_matched(scan, particles, at);
   const bool first =
       before_.whitened.width() != scan.z.width() || before_.whitened.height() != scan.z.height();
   return first || before_.total <= 0 ? 0 : draw_two_frame(scan, particles, at);
 }
 
-/// The new-born begin at `at`.
+/// Completes the new-born particles from index `at` on and sends them to the device.
 void Births::send(Particles& particles, std::size_t at) const {
-  const auto count = static_cast<std::size_t>(config_.count);
+  const auto count = static_cast<std::size_t>(config_.birth_particles);
   for (auto* zero : {&particles.ax, &particles.ay}) {
     std::fill_n(zero->begin() + static_cast<std::ptrdiff_t>(at), count, 0.0F);
   }
@@ -129,15 +141,15 @@ void Births::send(Particles& particles, std::size_t at) const {
 
 std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_t at) {
   const FrameView z = scan.z.view();
-  cells_above(z, config_.threshold, cells_);
+  cells_above(z, config_.birth_threshold, cells_);
   std::erase_if(cells_, [&](std::uint32_t cell) {
     const Pixel pixel = pixel_at(cell, z.width);
     return scan.mask.covers(static_cast<float>(pixel.x), static_cast<float>(pixel.y));
   });
   if (cells_.empty()) return 0;
   const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
-  const auto count = static_cast<std::size_t>(config_.count);
-  const auto speed = static_cast<float>(config_.speed_max);
+  const auto count = static_cast<std::size_t>(config_.birth_particles);
+  const auto speed = static_cast<float>(speed_max_);
   for (std::size_t i = 0; i < count; ++i) {
     const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 0);
     const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 1);
@@ -151,7 +163,7 @@ std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_
     p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
     p.intensity[to] = draw_intensity(b.w[2]);
     p.mode[to] = draw_mode(b.w[3]);
-    p.weight[to] = static_cast<float>(config_.mass / config_.count);  // P-PHD (30)
+    p.weight[to] = static_cast<float>(config_.birth_mass / config_.birth_particles);  // P-PHD (30)
   }
   send(p, at);
   return count;
@@ -159,7 +171,7 @@ std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_
 
 /// `count` cells in proportion to their scores.
 void Births::draw_cells(const BirthFrame& frame, RandomKey key) {
-  const auto count = static_cast<std::size_t>(config_.count);
+  const auto count = static_cast<std::size_t>(config_.birth_particles);
   cells_.resize(count), cell_score_.resize(count);
   const MovedArray scores{frame.score.values().data(), cell_score_.data()};
   device_.run<Resample>({.weights = frame.score.values(),
@@ -179,7 +191,7 @@ void Births::pick_next_cells(RandomKey key, double step) {
   }
   const int width = now_.whitened.width(), height = now_.whitened.height();
   device_.run<PickCells>({.score = {now_.score.values().data(), width, height, width},
-                          .reach = static_cast<int>(std::ceil(config_.speed_max * step)),
+                          .reach = static_cast<int>(std::ceil(speed_max_ * step)),
                           .cell = cells_,
                           .uniform = uniform_,
                           .picked = next_cells_,
@@ -190,8 +202,8 @@ void Births::pick_next_cells(RandomKey key, double step) {
 std::size_t Births::draw_matched(const BirthScan& scan, Particles& p, std::size_t at) {
   const int width = now_.whitened.width(), height = now_.whitened.height();
   const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
-  const auto count = static_cast<std::size_t>(config_.count);
-  const auto speed = static_cast<float>(config_.speed_max);
+  const auto count = static_cast<std::size_t>(config_.birth_particles);
+  const auto speed = static_cast<float>(speed_max_);
   draw_cells(now_, key);
   const double mean = now_.total / (static_cast<double>(width) * height);
   for (std::size_t i = 0; i < count; ++i) {
@@ -205,7 +217,8 @@ std::size_t Births::draw_matched(const BirthScan& scan, Particles& p, std::size_
     p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
     p.intensity[to] = draw_intensity(b.w[2]);
     p.mode[to] = draw_mode(b.w[3]);
-    p.weight[to] = static_cast<float>(config_.mass / config_.count * mean / cell_score_[i]);
+    p.weight[to] =
+        static_cast<float>(config_.birth_mass / config_.birth_particles * mean / cell_score_[i]);
   }
   send(p, at);
   return count;
@@ -215,13 +228,13 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
   const double step = scan.step;
   const int width = now_.whitened.width(), height = now_.whitened.height();
   const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
-  const auto count = static_cast<std::size_t>(config_.count);
+  const auto count = static_cast<std::size_t>(config_.birth_particles);
   for (auto* v : {&x_before_, &y_before_, &log_ratio_}) v->resize(count);
   draw_cells(before_, key);
   pick_next_cells(key, step);
 
   const double mean = before_.total / (static_cast<double>(width) * height);
-  const double area = 4 * config_.speed_max * step * config_.speed_max * step;
+  const double area = 4 * speed_max_ * step * speed_max_ * step;
   const Tiles tiles{count, kBirthTile};
   device_.workers().for_tiles(tiles.tiles(), [&](std::size_t tile) {
     for (std::size_t i = tiles.begin(tile); i < tiles.end(tile); ++i) {
@@ -239,14 +252,13 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
       p.vy[to] = static_cast<float>((p.y[to] - y_before_[i]) / step);
       p.intensity[to] = draw_intensity(b.w[2]);
       p.mode[to] = draw_mode(b.w[3]);
-      // The share of this cell that living targets already explain is no birth: 1 / (clutter + B).
+      // What living targets already explain of this cell is no birth: 1 / (clutter + B).
       const double explained =
           scan.clutter + window_sum(scan.previous, width, height, spread_.half_width, cx, cy);
       const bool possible =  // all cells in reach may be masked
-          next_score > 0 && std::abs(p.vx[to]) <= config_.speed_max &&
-          std::abs(p.vy[to]) <= config_.speed_max;
-      const double weight = config_.mass / config_.count * mean / cell_score_[i] * next_total_[i] /
-                            (area * next_score) / explained;
+          next_score > 0 && std::abs(p.vx[to]) <= speed_max_ && std::abs(p.vy[to]) <= speed_max_;
+      const double weight = config_.birth_mass / config_.birth_particles * mean / cell_score_[i] *
+                            next_total_[i] / (area * next_score) / explained;
       p.weight[to] = possible ? static_cast<float>(weight) : 0.0f;
     }
   });
@@ -260,7 +272,7 @@ std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::siz
        .log_ratio = log_ratio_,
        .jitter = jitter_,
        .key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth_jitter)});
-  // Births were born a frame ago and share their pixels there like anyone: P-PHD (14) for them too.
+  // The new-born already lived a frame ago and share its pixels, so P-PHD (14) holds for them too.
   const std::span<float> predicted = std::span(p.weight).subspan(at, count);
   updated_.resize(count);
   device_.run<CellWeights>({.width = width,

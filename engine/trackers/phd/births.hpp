@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <string>
 #include <tuple>
 #include <vector>
 
+#include "glint/engine/config.hpp"
 #include "glint/engine/frames/target_appearance.hpp"
 #include "glint/engine/trackers/phd/motion_bank.hpp"
 #include "glint/engine/trackers/phd/pixel_mask.hpp"
@@ -24,26 +26,27 @@ enum class BirthProposal {
   two_frame        ///< a pair of cells in two successive frames: position and velocity at once
 };
 
+/// Where targets come from.
 struct BirthConfig {
-  BirthProposal proposal = BirthProposal::two_frame;
-  int count = 4000;        ///< particles a frame, J
-  double mass = 0.05;      ///< expected new-born targets a frame, gamma
-  double threshold = 1.5;  ///< of the uniform proposal [noise sigmas]
-  double speed_max = 4;    ///< largest speed along each axis [px/frame]
+  std::string birth = "two-frame";  ///< the proposal
+  int birth_particles = 4000;       ///< new-born particles a frame, J
+  double birth_mass = 0.05;         ///< expected new-born targets a frame, gamma
+  double birth_threshold = 1.5;     ///< of the uniform proposal [noise sigmas]
 };
+void describe(FieldList& f, BirthConfig& c);
 
-/// What births of one frame are drawn from.
+/// What the births of one frame are drawn from.
 struct BirthScan {
   const Frame& z;
   std::int64_t frame;
-  double step;  ///< since the frame before [frames]
-  /// Cell map of the update of the frame before, of the same size.
+  double step;  ///< since the frame before [frame]
+  /// Cells of the filter's update at the frame before, of the same size.
   const CellWorkspace& previous;
-  double clutter;
+  double clutter;         ///< lambda of P-PHD (14), in likelihood-ratio units
   const PixelMask& mask;  ///< nothing is born there
 };
 
-/// One frame as births see it, kept until the next.
+/// A frame and its birth scores, needed until the next one.
 struct BirthFrame {
   explicit BirthFrame(const Device& device) : score(device) {}
   Frame whitened;
@@ -57,21 +60,21 @@ struct BirthFrame {
   void restored() const;
 };
 
-/// Draws new-born particles with their weights; their position is the one at the present frame.
+/// Draws new-born particles and their weights: P-PHD (28)-(30), or an importance density in place
+/// of (28) and (29). Positions are those at the present frame [px], velocities in [px/frame].
 class Births {
  public:
-  Births(const BirthConfig& config, const MotionBank& bank, const Device& device,
+  Births(const BirthConfig& config, const MotionConfig& motion, const Device& device,
          std::uint64_t seed);
-  /// What the new-born look like; forgets the frame before.
+  /// Sets what new-born targets look like; forgets the frame before.
   void set_appearance(const TargetAppearance& appearance);
 
-  /// Writes `config.count` particles to `particles` from index `at` on (already resized), on the
-  /// host and on the device if they are resident. Returns
-  /// how many were written: fewer only if there is nothing to draw from (no frame before, no cell
-  /// above the threshold).
+  /// Writes `birth_particles` particles to `particles` from index `at` on (already resized), on the
+  /// host and on the device if they are resident. Returns how many were written: none if there is
+  /// nothing to draw from (no frame before, no cell above the threshold).
   std::size_t draw(const BirthScan& scan, Particles& particles, std::size_t at);
 
-  // The frame at hand is the one before of the next draw().
+  // The present frame is the frame before of the next draw().
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.spread_.sigma, s.intensity_low_, s.intensity_high_, s.jitter_, s.now_);
@@ -79,7 +82,7 @@ class Births {
   void restored() { spread_ = PointSpread::of(spread_.sigma); }
 
  private:
-  void look_at(const Frame& z, const PixelMask& mask);
+  void score(const Frame& z, const PixelMask& mask);
   std::size_t draw_uniform(const BirthScan& scan, Particles& p, std::size_t at);
   std::size_t draw_matched(const BirthScan& scan, Particles& p, std::size_t at);
   std::size_t draw_two_frame(const BirthScan& scan, Particles& p, std::size_t at);
@@ -90,7 +93,9 @@ class Births {
   float draw_intensity(std::uint32_t word) const;
 
   BirthConfig config_;
-  MotionBank bank_;
+  BirthProposal proposal_;
+  double speed_max_;               // [px/frame]
+  std::vector<float> birth_mode_;  // probability of each motion model
   PointSpread spread_;
   float intensity_low_ = 1, intensity_high_ = 1, jitter_ = 0;
   Device device_;

@@ -7,27 +7,34 @@
 namespace glint {
 namespace {
 
-// Draws of the targets must not be those of the search.
+// The targets must not draw the same random numbers as the detector.
 constexpr std::uint64_t kTargets = std::uint64_t{0x7A} << 56;
 
 double distance(const Peak& a, const Peak& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 }  // namespace
 
-FollowedTargets::FollowedTargets(const FollowedTargetsConfig& config, const MotionBank& bank,
+void describe_separation(FieldList& f, FollowedTargetsConfig& c) {
+  f("separation", c.separation, 0, 1000, "px",
+    "no target is detected this near to a track; of two tracks the younger ends");
+}
+
+FollowedTargets::FollowedTargets(const FollowedTargetsConfig& config, const MotionConfig& motion,
                                  const Device& device, std::uint64_t seed)
     : config_(config),
-      modes_(bank.modes.size()),
-      filters_(bank, config.particles, device, seed ^ kTargets) {}
+      survival_(motion.survival),
+      modes_(motion.bank().modes.size()),
+      filters_(motion.bank(), config.target_particles, device, seed ^ kTargets) {}
 
-/// Boxes of pixels are made of where it is.
+// Boxes of pixels are laid around the position.
 void FollowedTarget::restored() const {
   constexpr double kFar = 1e6;  // [px]
   constexpr int kMany = 1 << 30;
-  require_bytes(std::abs(estimate.x) < kFar && std::abs(estimate.y) < kFar, "a target is nowhere");
+  require_bytes(std::abs(estimate.x) < kFar && std::abs(estimate.y) < kFar,
+                "a target is too far away");
   require_frame_number(detected), require_frame_number(first_missed);
   require_bytes(hits >= 0 && hits < kMany && misses >= 0 && misses < kMany,
-                "a target was not seen that often");
+                "a target has no such number of hits or misses");
 }
 
 void FollowedTargets::restored() const {
@@ -42,27 +49,29 @@ void FollowedTargets::follow(const Frame& z, const StepTime& at, TrackLog& log) 
   end_duplicates();
   for (FollowedTarget& target : targets_) report(target, at, log);
   filters_.resample(at.frame);
-  forget_ended();
-  for (std::size_t t = 0; t < targets_.size(); ++t) {
-    if (!targets_[t].confirmed && targets_[t].hits >= config_.confirm_hits) {
-      targets_[t].confirmed = true;
-      confirmed_now_.push_back(t);
-      log.confirm(targets_[t].id, targets_[t].detected);
-    }
-  }
+  remove_ended();
+  for (std::size_t t = 0; t < targets_.size(); ++t) confirm(t, log);
+}
+
+void FollowedTargets::confirm(std::size_t t, TrackLog& log) {
+  FollowedTarget& target = targets_[t];
+  if (target.confirmed || target.hits < config_.confirm_hits) return;
+  target.confirmed = true;
+  confirmed_now_.push_back(t);
+  log.confirm(target.id, target.detected);
 }
 
 void FollowedTargets::update_life(FollowedTarget& target, const TargetUpdate& update,
                                   std::int64_t frame) const {
   bool hit = false;
   if (config_.rule == LifeRule::existence) {
-    const double odds = config_.survival * target.existence * update.mean_ratio;
+    const double odds = survival_ * target.existence * update.mean_ratio;
     target.existence = odds / (1 + odds);
     hit = target.existence >= config_.existence;
   } else {
     target.existence = std::min(1.0, target.existence * update.mean_ratio);
     hit = target.existence >= 1;
-    target.ended = target.existence <= config_.miss;
+    target.ended = target.existence <= config_.miss_probability;
   }
   if (update.mean_ratio > 0) target.estimate = update.estimate;
   if (hit) {
@@ -82,9 +91,9 @@ void FollowedTargets::end_duplicates() {
       const bool close =
           distance(targets_[t].estimate, targets_[older].estimate) < config_.separation;
       if (!close || targets_[older].ended) continue;
-      // One that is being missed has no claim to what another sees.
-      const bool yield = targets_[older].misses > targets_[t].misses && targets_[t].confirmed;
-      (yield ? targets_[older] : targets_[t]).ended = true;
+      // The older track is lost and has come upon the target of the younger one.
+      const bool lost = targets_[older].misses > targets_[t].misses && targets_[t].confirmed;
+      (lost ? targets_[older] : targets_[t]).ended = true;
     }
   }
 }
@@ -103,7 +112,7 @@ void FollowedTargets::report(FollowedTarget& target, const StepTime& at, TrackLo
   log.report(point);
 }
 
-void FollowedTargets::forget_ended() {
+void FollowedTargets::remove_ended() {
   for (std::size_t t = targets_.size(); t-- > 0;) {
     if (!targets_[t].ended) continue;
     filters_.remove(t);
@@ -111,35 +120,22 @@ void FollowedTargets::forget_ended() {
   }
 }
 
-bool FollowedTargets::detect(const Peak& peak, const Particles& particles,
-                             std::span<const std::uint32_t> members, const StepTime& at,
-                             TrackLog& log) {
-  const bool known = std::ranges::any_of(targets_, [&](const FollowedTarget& target) {
+bool FollowedTargets::detect(const Cluster& cluster, const StepTime& at, TrackLog& log) {
+  const Peak& peak = cluster.peak;
+  const bool followed = std::ranges::any_of(targets_, [&](const FollowedTarget& target) {
     return distance(target.estimate, peak) < config_.separation;
   });
-  if (known) return false;
+  if (followed) return false;
   FollowedTarget target;
   target.id = next_id_++;
   target.existence = config_.rule == LifeRule::existence ? std::min(1.0, peak.mass) : 1;
   target.detected = at.frame;
   target.estimate = peak;
-  filters_.add(particles, members, at.frame);
+  filters_.add(cluster.particles, cluster.members, at.frame);
   report(target, at, log);
   targets_.push_back(target);
-  if (config_.confirm_hits <= 1) {
-    targets_.back().confirmed = true;
-    confirmed_now_.push_back(targets_.size() - 1);
-  }
+  confirm(targets_.size() - 1, log);
   return true;
-}
-
-void FollowedTargets::boxes(int half_width, std::vector<Box>& boxes) const {
-  boxes.clear();
-  for (const FollowedTarget& target : targets_) {
-    const int x = static_cast<int>(std::floor(target.estimate.x + 0.5));
-    const int y = static_cast<int>(std::floor(target.estimate.y + 0.5));
-    boxes.push_back({x - half_width, y - half_width, x + half_width + 1, y + half_width + 1});
-  }
 }
 
 }  // namespace glint

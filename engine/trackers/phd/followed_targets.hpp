@@ -13,34 +13,39 @@
 
 namespace glint {
 
-/// When a target that is being followed is still there.
+/// When a frame counts as a hit or a miss of a target, and when its track ends. L is the mean
+/// likelihood ratio of its particles in the frame.
 enum class LifeRule {
-  existence,        ///< hit while n = W L / (1 + W L) holds, W = e n_{k-1}. P-PHD (14), (19)
-  likelihood_ratio  ///< miss while S = min(0, S + ln L) < 0, ended at ln P_M: Boers and Driessen's
-                    ///< test
+  existence,        ///< existence probability n_k = W L / (1 + W L), W = e n_{k-1}: a hit if it is
+                    ///< at least `existence`. P-PHD (14), (19)
+  likelihood_ratio  ///< S_k = min(0, S_{k-1} + ln L): a hit if S_k = 0, the end if S_k <= ln P_M.
+                    ///< Boers and Driessen's test
 };
 
+/// Settings of the targets that have a track.
 struct FollowedTargetsConfig {
   LifeRule rule = LifeRule::existence;
-  int particles = 1500;    ///< a target
-  double survival = 0.99;  ///< from frame to frame
-  double existence = 0.5;  ///< least n of a hit
-  int confirm_hits = 5;    ///< hits to be confirmed; the detection is the first
-  int halt_misses = 3;     ///< misses in a row that end a confirmed track; a tentative one ends on
-                           ///< its first
-  double miss = 0.05;      ///< P_M of the likelihood ratio test
-  double separation = 6;   ///< [px]: none is detected this near to a track; of two the younger dies
+  int target_particles = 1500;     ///< of each target
+  double existence = 0.5;          ///< least n_k of a hit
+  int confirm_hits = 5;            ///< hits to be confirmed; the detection is the first
+  int halt_misses = 3;             ///< misses in a row that end a confirmed track (a tentative one
+                                   ///< ends on its first); rule `existence` only
+  double miss_probability = 0.05;  ///< P_M; rule `likelihood_ratio` only
+  double separation = 6;           ///< no target is detected this near to a track, and of two
+                                   ///< tracks this near one ends [px]
 };
+/// Lists `separation` alone.
+void describe_separation(FieldList& f, FollowedTargetsConfig& c);
 
 /// A target with a track.
 struct FollowedTarget {
   std::uint32_t id = 0;
-  double existence = 1;  ///< n, or e^S
+  double existence = 1;  ///< n_k, or e^S_k
   int hits = 1, misses = 0;
   bool confirmed = false, ended = false;
-  std::int64_t detected = 0;      ///< frame k0
-  std::int64_t first_missed = 0;  ///< of the present row of misses
-  Peak estimate;                  ///< velocity a frame
+  std::int64_t detected = 0;      ///< frame of the detection, k0
+  std::int64_t first_missed = 0;  ///< frame of the first of the present misses in a row
+  Peak estimate;                  ///< velocity in [px/frame]
 
   template <class Self>
   static auto fields(Self& s) {
@@ -50,26 +55,25 @@ struct FollowedTarget {
   void restored() const;
 };
 
-/// Tracks from their detection to their end, each with a particle filter of its own.
+/// The targets that have a track, from detection to the end of the track, each with a particle
+/// filter of its own. P-PHD section 4.2
 class FollowedTargets {
  public:
-  FollowedTargets(const FollowedTargetsConfig& config, const MotionBank& bank, const Device& device,
-                  std::uint64_t seed);
+  FollowedTargets(const FollowedTargetsConfig& config, const MotionConfig& motion,
+                  const Device& device, std::uint64_t seed);
   void set_appearance(const TargetAppearance& appearance) { filters_.set_appearance(appearance); }
 
-  /// Moves all targets to the frame `z`, weighs them, updates which of them are still there, and
-  /// reports them. Those that end lose the points of their last misses.
+  /// Predicts and updates all targets by the frame `z`, counts hits and misses, ends tracks, and
+  /// reports to the log. Tracks that end lose the points of their last misses there.
   void follow(const Frame& z, const StepTime& at, TrackLog& log);
-  /// A track for a new target unless one is within the separation, then false.
-  bool detect(const Peak& peak, const Particles& particles, std::span<const std::uint32_t> members,
-              const StepTime& at, TrackLog& log);
+  /// Starts a track from a cluster of particles. False, and no track, if another is nearer than
+  /// `separation`.
+  bool detect(const Cluster& cluster, const StepTime& at, TrackLog& log);
 
   std::span<const FollowedTarget> targets() const { return targets_; }  ///< by rising id
   /// Tracks confirmed by the last follow() or detect(): indices into targets().
   std::span<const std::size_t> confirmed_now() const { return confirmed_now_; }
   const TargetFilters& filters() const { return filters_; }  ///< same indices
-  /// Boxes of 2 half_width + 1 pixels around all targets.
-  void boxes(int half_width, std::vector<Box>& boxes) const;
 
   template <class Self>
   static auto fields(Self& s) {
@@ -81,9 +85,11 @@ class FollowedTargets {
   void update_life(FollowedTarget& target, const TargetUpdate& update, std::int64_t frame) const;
   void end_duplicates();
   void report(FollowedTarget& target, const StepTime& at, TrackLog& log);
-  void forget_ended();
+  void remove_ended();
+  void confirm(std::size_t t, TrackLog& log);
 
   FollowedTargetsConfig config_;
+  double survival_;
   std::size_t modes_;
   TargetFilters filters_;
   std::vector<FollowedTarget> targets_;

@@ -13,8 +13,16 @@ double distance(double x0, double y0, double x1, double y1) { return std::hypot(
 
 }  // namespace
 
-Identities::Track* Identities::claim(const Peak& peak, std::span<const std::uint32_t> members,
-                                     const Particles& p) {
+void describe(FieldList& f, IdentityConfig& c) {
+  f("confirm_hits", c.confirm_hits, 1, 1000, "frames", "seen this often, a track is confirmed");
+  f("halt_misses", c.halt_misses, 1, 1000, "frames", "missed this often in a row, it ends");
+  f("separation", c.separation, 0, 1000, "px", "no new track this near to a living one");
+  f("reacquire", c.reacquire, 0, 1000, "px",
+    "a lost track takes a new peak this near to its predicted position");
+}
+
+Identities::Track* Identities::labelled(const Peak& peak, std::span<const std::uint32_t> members,
+                                        const Particles& p) {
   votes_.clear();
   for (const auto i : members) {
     if (p.label[i] == 0) continue;
@@ -32,7 +40,7 @@ Identities::Track* Identities::claim(const Peak& peak, std::span<const std::uint
   for (const auto& [label, weight] : votes_) {
     const auto track = std::find_if(tracks_.begin(), tracks_.end(),
                                     [label = label](const Track& t) { return t.id == label; });
-    // A sliver of another's particles is no claim to its name.
+    // A few stray particles of another track do not count.
     if (track != tracks_.end() && !track->seen && weight > 0.1 * peak.mass) return &*track;
   }
   return nullptr;
@@ -48,7 +56,7 @@ Identities::Track* Identities::lost_near(const Peak& peak) {
   return best;
 }
 
-bool Identities::crowded(const Peak& peak) const {
+bool Identities::near_seen(const Peak& peak) const {
   return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& t) {
     return t.seen && distance(t.x, t.y, peak.x, peak.y) < config_.separation;
   });
@@ -59,30 +67,30 @@ void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32
                         double velocity_scale, std::size_t modes, TrackLog& log) {
   for (auto& t : tracks_) t.seen = false, t.x += step * t.vx, t.y += step * t.vy;
   const auto of = [&](const Peak& p) { return members.subspan(p.first, p.last - p.first); };
-  // Known tracks first, so that no new one takes their place.
-  claimed_.assign(peaks.size(), 0);
+  // Peaks that carry a label first: no other peak may take their tracks.
+  assigned_.assign(peaks.size(), 0);
   const auto see = [&](Track& t, std::size_t k) {
     t.seen = true, ++t.hits, t.misses = 0;
     t.x = peaks[k].x, t.y = peaks[k].y, t.vx = peaks[k].vx, t.vy = peaks[k].vy;
-    claimed_[k] = t.id;
+    assigned_[k] = t.id;
   };
   for (std::size_t k = 0; k < peaks.size(); ++k) {
-    if (Track* t = claim(peaks[k], of(peaks[k]), particles)) see(*t, k);
+    if (Track* t = labelled(peaks[k], of(peaks[k]), particles)) see(*t, k);
   }
   for (std::size_t k = 0; k < peaks.size(); ++k) {
-    if (claimed_[k] != 0) continue;
+    if (assigned_[k] != 0) continue;
     if (Track* t = lost_near(peaks[k])) {
       see(*t, k);
-    } else if (!crowded(peaks[k])) {
+    } else if (!near_seen(peaks[k])) {
       tracks_.push_back({next_id_++});
       see(tracks_.back(), k);
     }
   }
   for (std::size_t k = 0; k < peaks.size(); ++k) {
-    if (claimed_[k] == 0) continue;
-    for (const auto i : of(peaks[k])) particles.label[i] = claimed_[k];
+    if (assigned_[k] == 0) continue;
+    for (const auto i : of(peaks[k])) particles.label[i] = assigned_[k];
     const auto t = std::find_if(tracks_.begin(), tracks_.end(),
-                                [&](const Track& u) { return u.id == claimed_[k]; });
+                                [&](const Track& u) { return u.id == assigned_[k]; });
     TrackPoint point = point_of(peaks[k], modes, {frame, time, step, velocity_scale});
     point.track_id = t->id;
     point.existence = std::min(1.0, peaks[k].mass);

@@ -8,9 +8,9 @@
 
 namespace glint {
 
-/// Splits a weighted cloud into round(total mass) classes by k-means on position, as printed in
-/// P-PHD section 3.1; kept to show what it costs. `members` is filled class by class, as the peaks'
-/// ranges say.
+/// Splits particles into round(total mass) classes by k-means on position, as printed in P-PHD
+/// section 3.1; for comparison with PeakFinder. `members` is filled with particle indices class by
+/// class: those of a peak are members[first, last).
 std::vector<Peak> kmeans_states(const Particles& particles, RandomKey key,
                                 std::vector<std::uint32_t>& members);
 

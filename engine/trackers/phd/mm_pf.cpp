@@ -11,66 +11,43 @@ void describe(FieldList& f, MmPfConfig& c) {
     "a target is declared at odds of (1 - miss_probability) / false_probability");
   f("miss_probability", c.miss_probability, 1e-6, 0.5, "",
     "a track ends when the likelihood ratio has fallen to this since its best");
-  f.automatic("cluster_radius", c.cluster_radius, 0, 20, "px",
-              "half side of a target's particle box; auto is half the window of the point spread");
-  f("target_particles", c.target_particles, 10, 1000000, "", "particles that follow a target");
-  f.automatic("mask_half_width", c.mask_half_width, 0, 1000, "px",
-              "the search is blind this far around tracked targets; auto is half the window");
-  f("separation", c.separation, 0, 1000, "px",
-    "no target is declared this near to a track; of two tracks the younger ends");
-}
-
-FollowedTargetsConfig MmPfConfig::known_targets() const {
-  FollowedTargetsConfig config;
-  config.rule = LifeRule::likelihood_ratio;
-  config.particles = target_particles;
-  config.confirm_hits = 1;
-  config.miss = miss_probability;
-  config.separation = separation;
-  return config;
+  describe_found_target(f, c, c);
+  describe_separation(f, c);
 }
 
 MmPf::MmPf(const MmPfConfig& config, const Device& device, std::uint64_t seed)
-    : config_(config),
-      bank_(config.bank()),
+    : declaring_odds_((1 - config.miss_probability) / config.false_probability * config.birth_mass),
+      mode_names_(config.bank().names),
       appearance_(config),
-      search_(config, device, seed, CloudWeight::odds),
-      targets_(config.known_targets(), bank_, device, seed) {}
+      detector_(config, device, seed, WeightSum::odds),
+      targets_(config, config, device, seed) {}
 
 void MmPf::step(const Scan& scan, TrackLog& log) {
   if (scan.whitened.width() == 0) return;
-  if (!clock_.started()) log.set_mode_names(bank_.names);
+  if (!clock_.started()) log.set_mode_names(mode_names_);
   if (appearance_.look_at(scan)) {
-    search_.set_appearance(appearance_);
+    detector_.set_appearance(appearance_);
     targets_.set_appearance(appearance_);
   }
   const StepTime at = clock_.tick(scan);
   targets_.follow(scan.whitened, at, log);
-  search(scan.whitened, at, log);
+  detect(scan.whitened, at, log);
 }
 
-void MmPf::search(const Frame& z, const StepTime& at, TrackLog& log) {
-  const int half_width = appearance_.spread().half_width;
-  targets_.boxes(appearance_.mask_half_width(config_.mask_half_width), boxes_);
-  mask_.set(boxes_, z.width(), z.height());
-  search_.predict(z, at.frame, at.step, mask_);
-  search_.update(z, at.frame);
-  // Boers and Driessen's test on the odds of a target that may have been born at any time.
-  const double odds = search_.expected();
-  const double wanted = (1 - config_.miss_probability) / config_.false_probability;
-  if (odds >= wanted * config_.birth_mass) {
-    constexpr double kShare = 0.1;  // of the odds: the biggest cluster has more
-    const double radius = appearance_.cluster_radius(config_.cluster_radius);
-    const auto peaks = peaks_.find(search_.particles(), search_.runs(), z.width(), z.height(),
-                                   half_width, {kShare * odds, radius});
-    if (!peaks.empty()) {
-      const auto members = peaks_.members(peaks.front());
-      targets_.detect(peaks.front(), search_.particles(), members, at, log);
-      search_.clear();
+// Boers and Driessen's test on the odds of a target that may have been born at any time.
+void MmPf::detect(const Frame& z, const StepTime& at, TrackLog& log) {
+  constexpr double kShare = 0.1;  // of the odds: the heaviest cluster has more
+  detector_.update(z, at, targets_.targets());
+  const double odds = detector_.expected();
+  if (odds >= declaring_odds_) {
+    const std::span<const Cluster> found = detector_.find(kShare * odds);
+    if (!found.empty()) {
+      targets_.detect(found.front(), at, log);
+      detector_.clear();
       return;
     }
   }
-  search_.resample(at.frame);
+  detector_.resample(at.frame);
 }
 
 template class TrackerOf<MmPf>;

@@ -4,33 +4,26 @@
 #include <tuple>
 #include <vector>
 
+#include "glint/engine/trackers/phd/detector.hpp"
 #include "glint/engine/trackers/phd/followed_targets.hpp"
-#include "glint/engine/trackers/phd/phd_filter.hpp"
 #include "glint/engine/tracks/tracker.hpp"
 
 namespace glint {
 
 /// Settings of `mm-pf`.
-struct MmPfConfig : PhdFilterConfig {
+struct MmPfConfig : DetectorConfig, FollowedTargetsConfig {
   MmPfConfig() {
-    snr_low = 8, snr_high = 18;
-    intensity_walk = 0.5;
-    motion = "cv+ct";
+    rule = LifeRule::likelihood_ratio;
+    confirm_hits = 1;
   }
   double false_probability = 1e-5;  ///< P_F of the detection test
-  double miss_probability = 0.05;   ///< P_M
-  double cluster_radius = 0;        ///< [px]; 0 = auto, half the window
-  int target_particles = 1500;
-  double mask_half_width = 5;  ///< [px]; 0 = auto, half the window
-  double separation = 6;       ///< [px]
-  FollowedTargetsConfig known_targets() const;
 };
 void describe(FieldList& f, MmPfConfig& c);
 
-/// Heuristic multi-target MM-PF track-before-detect, what P-PHD section 5.3 compares with: a search
-/// cloud holds the posterior odds of one target more, Boers and Driessen's likelihood ratio test
-/// declares it, its cluster becomes a particle filter of its own, and the search starts again
-/// without it.
+/// Heuristic multi-target MM-PF track-before-detect, what P-PHD section 5.3 compares with: the
+/// detector's weights sum to the posterior odds of one more target, Boers and Driessen's likelihood
+/// ratio test declares it, its cluster starts a particle filter of its own, and the detector starts
+/// again without particles.
 class MmPf : public TrackerOf<MmPf> {
  public:
   /// Throws ConfigError for settings that do not fit together.
@@ -41,20 +34,17 @@ class MmPf : public TrackerOf<MmPf> {
 
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.appearance_, s.search_, s.targets_, s.clock_);
+    return std::tie(s.appearance_, s.detector_, s.targets_, s.clock_);
   }
 
  private:
-  void search(const Frame& z, const StepTime& at, TrackLog& log);
+  void detect(const Frame& z, const StepTime& at, TrackLog& log);
 
-  MmPfConfig config_;
-  MotionBank bank_;
+  double declaring_odds_;
+  std::vector<std::string> mode_names_;
   TargetAppearance appearance_;
-  PhdFilter search_;
-  PeakFinder peaks_;
+  Detector detector_;
   FollowedTargets targets_;
-  std::vector<Box> boxes_;
-  PixelMask mask_;
   StepClock clock_;
 };
 

@@ -5,19 +5,32 @@
 
 namespace glint {
 
+void describe(FieldList& f, MmPhdConfig& c) {
+  describe(f, static_cast<PhdFilterConfig&>(c));
+  f("existence", c.existence, 0.01, 1, "", "least existence probability of a target that is seen");
+  describe_found_target(f, c, c);
+  f("confirm_hits", c.confirm_hits, 1, 1000, "frames",
+    "a track is confirmed when seen this often, the detection included");
+  f("halt_misses", c.halt_misses, 1, 1000, "frames",
+    "missed this often in a row, a confirmed track ends; a tentative one does at once");
+  describe_separation(f, c);
+  f("backward_frames", c.backward_frames, 0, 1000, "frames",
+    "how far a confirmed track is traced back before its detection; 0 never");
+}
+
 MmPhd::MmPhd(const MmPhdConfig& config, const Device& device, std::uint64_t seed)
-    : config_(config),
-      bank_(config.bank()),
+    : least_mass_(config.existence),
+      mode_names_(config.bank().names),
       appearance_(config),
-      search_(config, device, seed),
-      targets_(config.known_targets(), bank_, device, seed),
-      backward_(config.known_targets(), bank_, config.backward_frames, device, seed) {}
+      detector_(config, device, seed),
+      targets_(config, config, device, seed),
+      backward_(config, config, config.backward_frames, device, seed) {}
 
 void MmPhd::step(const Scan& scan, TrackLog& log) {
   if (scan.whitened.width() == 0) return;
-  if (!clock_.started()) log.set_mode_names(bank_.names);
+  if (!clock_.started()) log.set_mode_names(mode_names_);
   if (appearance_.look_at(scan)) {
-    search_.set_appearance(appearance_);
+    detector_.set_appearance(appearance_);
     targets_.set_appearance(appearance_);
     backward_.set_appearance(appearance_);
   }
@@ -28,22 +41,13 @@ void MmPhd::step(const Scan& scan, TrackLog& log) {
   backward_.remember(scan.whitened, at, targets_.targets());
 }
 
-// Tracked targets are masked in the detector only. P-PHD (36)
 void MmPhd::detect(const Frame& z, const StepTime& at, TrackLog& log) {
-  const int half_width = appearance_.spread().half_width;
-  targets_.boxes(appearance_.mask_half_width(config_.mask_half_width), boxes_);
-  mask_.set(boxes_, z.width(), z.height());
-  search_.predict(z, at.frame, at.step, mask_);
-  search_.update(z, at.frame);
-  const double radius = appearance_.cluster_radius(config_.cluster_radius);
-  const auto peaks = peaks_.find(search_.particles(), search_.runs(), z.width(), z.height(),
-                                 half_width, {config_.existence, radius});
-  for (const Peak& peak : peaks) {
-    const auto members = peaks_.members(peak);
-    targets_.detect(peak, search_.particles(), members, at, log);
-    search_.remove(members);
+  detector_.update(z, at, targets_.targets());
+  for (const Cluster& cluster : detector_.find(least_mass_)) {
+    targets_.detect(cluster, at, log);
+    detector_.remove(cluster);
   }
-  search_.resample(at.frame);
+  detector_.resample(at.frame);
 }
 
 template class TrackerOf<MmPhd>;

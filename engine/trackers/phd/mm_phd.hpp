@@ -5,27 +5,15 @@
 #include <vector>
 
 #include "glint/engine/trackers/phd/backward_pass.hpp"
+#include "glint/engine/trackers/phd/detector.hpp"
 #include "glint/engine/trackers/phd/followed_targets.hpp"
-#include "glint/engine/trackers/phd/phd_filter.hpp"
 #include "glint/engine/tracks/tracker.hpp"
 
 namespace glint {
 
-/// Settings of `mm-phd`.
-struct MmPhdConfig : PhdFilterConfig {
-  MmPhdConfig() {
-    snr_low = 8, snr_high = 18;
-    intensity_walk = 0.5;
-    motion = "cv+ct";
-  }
-  double existence = 0.5;     ///< least mass of a peak, least existence of a hit
-  double cluster_radius = 0;  ///< [px]; 0 = auto, half the window
-  int target_particles = 1500;
-  double mask_half_width = 5;  ///< half side [px]; 0 = auto, half the window
-  int confirm_hits = 5, halt_misses = 3;
-  double separation = 6;  ///< [px]
-  int backward_frames = 12;
-  FollowedTargetsConfig known_targets() const;
+/// Settings of `mm-phd`. `existence` is also the least mass of a detected peak.
+struct MmPhdConfig : DetectorConfig, FollowedTargetsConfig {
+  int backward_frames = 12;  ///< [frame]; 0 = no backward pass
 };
 void describe(FieldList& f, MmPhdConfig& c);
 
@@ -42,21 +30,18 @@ class MmPhd : public TrackerOf<MmPhd> {
 
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.appearance_, s.search_, s.targets_, s.backward_, s.clock_);
+    return std::tie(s.appearance_, s.detector_, s.targets_, s.backward_, s.clock_);
   }
 
  private:
   void detect(const Frame& z, const StepTime& at, TrackLog& log);
 
-  MmPhdConfig config_;
-  MotionBank bank_;
+  double least_mass_;  // of a peak
+  std::vector<std::string> mode_names_;
   TargetAppearance appearance_;
-  PhdFilter search_;
-  PeakFinder peaks_;
+  Detector detector_;
   FollowedTargets targets_;
   BackwardPass backward_;
-  std::vector<Box> boxes_;
-  PixelMask mask_;
   StepClock clock_;
 };
 

@@ -2,8 +2,7 @@
 #include "glint/engine/trackers/phd/motion_bank.hpp"
 
 #include <algorithm>
-
-#include "glint/engine/config.hpp"
+#include <numbers>
 
 namespace glint {
 
@@ -24,6 +23,10 @@ MotionBank motion_bank(const std::string& name, double noise, double turn_rate) 
             {.8f, .1f, .1f}};                               // P-PHD section 5.2
   }
   throw ConfigError("motion must be cv, ca or cv+ct, got '" + name + "'");
+}
+
+MotionBank MotionConfig::bank() const {
+  return motion_bank(motion, process_noise, turn_rate * std::numbers::pi / 180);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "glint/engine/config.hpp"
 #include "glint/kernels/propagate/propagate.hpp"
 
 namespace glint {
@@ -23,8 +24,19 @@ struct MotionBank {
 /// section 5.2. Throws ConfigError for another name.
 MotionBank motion_bank(const std::string& name, double noise, double turn_rate);
 
-/// The bank for steps into the past of targets whose velocities have been turned round: turns go
-/// the other way, and the Markov chain runs backwards from its stationary distribution.
+/// The bank for steps into the past of targets whose velocities have been reversed: turns go the
+/// other way, and the Markov chain runs backwards from its stationary distribution.
 MotionBank reversed(const MotionBank& bank);
+
+/// How targets move. The unit of time is the frame interval, whatever the frame rate.
+struct MotionConfig {
+  std::string motion = "cv";
+  double process_noise = 0.02;  ///< [px^2/frame^3]
+  double turn_rate = 15;        ///< [deg/frame]
+  double speed_max = 4;         ///< along each axis [px/frame]
+  double survival = 0.99;       ///< probability of a target's survival from frame to frame
+  MotionBank bank() const;
+};
+void describe(FieldList& f, MotionConfig& c);
 
 }  // namespace glint

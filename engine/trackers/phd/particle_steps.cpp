@@ -48,18 +48,19 @@ void weigh_particles(const ParticleModel& model, const Frame& z, std::int64_t fr
 void require_particles(const Particles& particles, std::size_t modes) {
   std::apply(
       [&](const auto&... array) {
-        require_bytes(((array.size() == particles.size()) && ...), "a particle is not whole");
+        require_bytes(((array.size() == particles.size()) && ...),
+                      "arrays of particles do not fit each other");
       },
       Particles::fields(particles));
-  const auto somewhere = [](float v) { return std::abs(v) < 1e9F; };  // not so NaN
+  const auto bounded = [](float v) { return std::abs(v) < 1e9F; };  // false for NaN
   for (const auto* values : {&particles.x, &particles.y, &particles.vx, &particles.vy}) {
-    require_bytes(std::ranges::all_of(*values, somewhere), "a particle is nowhere");
+    require_bytes(std::ranges::all_of(*values, bounded), "a particle is too far away or too fast");
   }
   require_bytes(std::ranges::all_of(particles.mode, [&](auto mode) { return mode < modes; }),
                 "a particle has no such motion model");
   require_bytes(
       std::ranges::all_of(particles.weight, [](float w) { return w >= 0 && std::isfinite(w); }),
-      "a particle's weight is no such number");
+      "a particle's weight is negative or not finite");
 }
 
 }  // namespace glint

@@ -11,7 +11,7 @@
 
 namespace glint {
 
-/// What moves and weighs a cloud: the same for clouds that search and clouds that follow.
+/// What particles are moved and weighed by: the same in PhdFilter and TargetFilters.
 struct ParticleModel {
   const MotionBank& bank;
   const TargetAppearance& appearance;
@@ -19,7 +19,7 @@ struct ParticleModel {
   std::uint64_t seed;
 };
 
-/// Moves particles to `frame`, `step` frames on. P-PHD (31), (32), (34). `noise_scale` multiplies
+/// Moves particles by `step` [frame] to `frame`. P-PHD (31), (32), (34). `noise_scale` multiplies
 /// the process noise's standard deviation of each, empty = 1.
 void move_particles(const ParticleModel& model, std::int64_t frame, double step,
                     Particles& particles, std::span<const float> noise_scale = {});

@@ -7,6 +7,11 @@
 #include "glint/kernels/core/cells.hpp"
 
 namespace glint {
+namespace {
+
+constexpr int kMeanShifts = 3;
+
+}  // namespace
 
 TrackPoint point_of(const Peak& estimate, std::size_t modes, const StepTime& at) {
   TrackPoint point;
@@ -84,7 +89,7 @@ bool PeakFinder::take(const Particles& p, const CellRuns& runs, std::uint32_t ru
   Peak peak;
   peak.x = cell.x, peak.y = cell.y;
   const std::size_t first = members_.size();
-  for (int shift = 0; shift <= config.shifts; ++shift) {
+  for (int shift = 0; shift <= kMeanShifts; ++shift) {
     members_.resize(first);
     collect(p, runs, peak.x, peak.y, config.radius);
     if (members_.size() == first) return false;
@@ -126,7 +131,7 @@ std::span<const Peak> PeakFinder::find(const Particles& particles, const CellRun
     heap_.pop_back();
     const auto now = static_cast<float>(box_mass(runs, best.run, half_width));
     if (now < threshold) continue;
-    if (now < best.mass * (1 - 1e-5f)) {  // others took from this box since: judge it again
+    if (now < best.mass * (1 - 1e-5f)) {  // peaks found since have taken from this window
       heap_.push_back({now, best.run});
       std::push_heap(heap_.begin(), heap_.end());
       continue;

@@ -13,15 +13,16 @@
 
 namespace glint {
 
-/// A cluster of particles that stands for one target: weighted moments of its members.
+/// Weighted moments of a cluster of particles that stands for one target.
 struct Peak {
-  double mass = 0;  ///< expected number of targets
-  double x = 0, y = 0, vx = 0, vy = 0, intensity = 0;
+  double mass = 0;                          ///< expected number of targets
+  double x = 0, y = 0, vx = 0, vy = 0;      ///< [px], [px/frame]
+  double intensity = 0;                     ///< [noise sigmas]
   double var_x = 0, cov_xy = 0, var_y = 0;  ///< [px^2]
   ModeProbability mode_probability;         ///< of kMostModes models; sums to 1
   std::size_t first = 0, last = 0;          ///< members: PeakFinder::members()[first, last)
 
-  // But for the members, who are those of one frame.
+  // Without the members, which are valid for one frame only.
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.mass, s.x, s.y, s.vx, s.vy, s.intensity, s.var_x, s.cov_xy, s.var_y,
@@ -29,8 +30,15 @@ struct Peak {
   }
 };
 
-/// A track point of `estimate`, whose velocity is in px a frame, at that time; track, status and
-/// existence are the caller's to set.
+/// A peak together with its particles.
+struct Cluster {
+  const Peak& peak;
+  const Particles& particles;
+  std::span<const std::uint32_t> members;  ///< indices of the peak's particles
+};
+
+/// A track point at `at` with the position, velocity and covariance of `estimate`; the caller sets
+/// track, status and existence.
 TrackPoint point_of(const Peak& estimate, std::size_t modes, const StepTime& at);
 
 /// Weighted moments of `members`; `weight` is by particle, not by member. The mass must be
@@ -38,16 +46,16 @@ TrackPoint point_of(const Peak& estimate, std::size_t modes, const StepTime& at)
 Peak describe_cluster(const Particles& particles, std::span<const std::uint32_t> members,
                       std::span<const float> weight);
 
+/// Which clusters of particles are peaks.
 struct PeakConfig {
-  double threshold = 0.5;  ///< least mass of a target
-  double radius = 2.5;     ///< half side of a cluster's box [px]
-  int shifts = 3;          ///< mean shifts
+  double threshold;  ///< least mass of a target
+  double radius;     ///< half side of a cluster's box [px]
 };
 
-/// Finds targets in a particle cloud: takes the window-sized box of the largest posterior mass,
-/// shifts it to the mean of its particles, takes these particles away, and repeats until no box
-/// holds the threshold. (In place of round(n) and k-means in P-PHD section 3.1, which breaks as
-/// soon as n is off.)
+/// Finds targets in a set of particles: takes the window-sized box of the largest posterior mass,
+/// moves it to the mean of its particles by mean shift, takes these particles out, and repeats
+/// until no box reaches the threshold. (In place of k-means into round(n) classes, P-PHD
+/// section 3.1, which fails as soon as n is off.)
 class PeakFinder {
  public:
   /// Peaks by falling box mass. `runs` groups the particles by cell with their posterior mass;
@@ -62,7 +70,7 @@ class PeakFinder {
 
  private:
   struct Candidate {
-    float mass;
+    float mass;  // of the window around the run's cell
     std::uint32_t run;
     bool operator<(const Candidate& o) const {
       return mass != o.mass ? mass < o.mass : run > o.run;  // of equal boxes the first
@@ -76,7 +84,8 @@ class PeakFinder {
             const PeakConfig& config);
 
   int width_ = 0, height_ = 0;
-  std::vector<float> mass_, box_, weight_;  // left over: per run, per box, per particle
+  // Mass that no peak has taken: in each run, in each run's window, of each particle.
+  std::vector<float> mass_, box_, weight_;
   std::vector<Candidate> heap_;
   std::vector<std::uint32_t> members_;
   std::vector<Peak> peaks_;

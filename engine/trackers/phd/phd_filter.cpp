@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "glint/engine/trackers/phd/particle_steps.hpp"
@@ -12,38 +11,19 @@
 namespace glint {
 namespace {
 
-BirthProposal proposal_of(const std::string& name) {
-  if (name == "uniform") return BirthProposal::uniform;
-  return name == "matched-filter" ? BirthProposal::matched_filter : BirthProposal::two_frame;
-}
-
 std::uint64_t index_of(std::int64_t frame) { return static_cast<std::uint64_t>(frame); }
-
-BirthConfig births_of(const PhdFilterConfig& config) {
-  BirthConfig births;
-  births.proposal = proposal_of(config.birth);
-  births.count = config.birth_particles;
-  births.mass = config.birth_mass;
-  births.threshold = config.birth_threshold;
-  births.speed_max = config.speed_max;
-  return births;
-}
 
 }  // namespace
 
-MotionBank MotionConfig::bank() const {
-  return motion_bank(motion, process_noise, turn_rate * std::numbers::pi / 180);
-}
-
 PhdFilter::PhdFilter(const PhdFilterConfig& config, const Device& device, std::uint64_t seed,
-                     CloudWeight weight)
+                     WeightSum weight_sum)
     : config_(config),
       bank_(config.bank()),
       device_(device),
       seed_(seed),
-      weight_(weight),
+      weight_sum_(weight_sum),
       appearance_(config),
-      births_(births_of(config), bank_, device, seed),
+      births_(config, config, device, seed),
       particles_(device),
       moved_(device),
       log_ratio_(device),
@@ -54,7 +34,7 @@ PhdFilter::PhdFilter(const PhdFilterConfig& config, const Device& device, std::u
 void PhdFilter::set_appearance(const TargetAppearance& appearance) {
   appearance_ = appearance;
   births_.set_appearance(appearance);
-  clear();  // intensities were for another shape
+  clear();
 }
 
 void PhdFilter::restored() const {
@@ -112,7 +92,7 @@ void PhdFilter::give_birth(const Frame& z, std::int64_t frame, double step, cons
 
 void PhdFilter::update(const Frame& z, std::int64_t frame) {
   auto& p = particles_.arrays();
-  const bool odds = weight_ == CloudWeight::odds;
+  const bool odds = weight_sum_ == WeightSum::odds;
   log_ratio_.resize(p.size());
   updated_.resize(p.size());
   if (odds || config_.resample_on == "likelihood") likelihood_.resize(p.size());
@@ -131,12 +111,12 @@ void PhdFilter::update(const Frame& z, std::int64_t frame) {
                             .workspace = &cells_});
   particles_.swap_weight(updated_);
   expected_ = total_mass(cells_.runs);
-  if (odds) turn_to_odds();
+  if (odds) convert_to_odds();
   fetched_ = false;
 }
 
-void PhdFilter::turn_to_odds() {
-  constexpr double kMost = 1e8;  // nothing is surer than that
+void PhdFilter::convert_to_odds() {
+  constexpr double kMost = 1e8;  // keeps the weights in the range of float
   const double sum = std::accumulate(cells_.cell_sum.begin(), cells_.cell_sum.end(), 0.0);
   const auto scale = static_cast<float>(sum > kMost ? kMost / sum : 1);
   likelihood_.fetch();
@@ -167,7 +147,7 @@ void PhdFilter::remove(std::span<const std::uint32_t> members) {
 
 void PhdFilter::resample(std::int64_t frame) {
   auto& p = particles_.arrays();
-  const double targets = weight_ == CloudWeight::odds ? 1 : std::max(1.0, std::ceil(expected_));
+  const double targets = weight_sum_ == WeightSum::odds ? 1 : std::max(1.0, std::ceil(expected_));
   const double wanted =
       std::min({targets * config_.particles_per_target, static_cast<double>(config_.particles_max),
                 static_cast<double>(p.size())});

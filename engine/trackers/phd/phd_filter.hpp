@@ -19,24 +19,8 @@
 
 namespace glint {
 
-/// How targets move. The unit of time is the frame interval, whatever the frame rate.
-struct MotionConfig {
-  std::string motion = "cv";
-  double process_noise = 0.02;  ///< [px^2/frame^3]
-  double turn_rate = 15;        ///< [deg/frame]
-  double speed_max = 4;         ///< [px/frame]
-  double survival = 0.99;
-  MotionBank bank() const;
-};
-void describe(FieldList& f, MotionConfig& c);
-
-/// Settings of a particle cloud that looks for targets all over the frame.
-struct PhdFilterConfig : AppearanceConfig, MotionConfig {
-  // Where targets come from.
-  std::string birth = "two-frame";
-  int birth_particles = 4000;
-  double birth_mass = 0.05;
-  double birth_threshold = 1.5;  ///< [noise sigmas]
+/// Settings of a particle PHD filter.
+struct PhdFilterConfig : AppearanceConfig, MotionConfig, BirthConfig {
   // How many particles stand for them.
   int particles_per_target = 2000;
   int particles_max = 2000000;
@@ -47,38 +31,41 @@ struct PhdFilterConfig : AppearanceConfig, MotionConfig {
 };
 void describe(FieldList& f, PhdFilterConfig& c);
 
-/// What the weights of a cloud sum to after the update.
-enum class CloudWeight {
-  expected_targets,  ///< pixels are shared out among the particles: P-PHD (14)
-  odds               ///< w l alone: posterior odds of one target against none
+/// What the particles' weights sum to after the update.
+enum class WeightSum {
+  expected_targets,  ///< number of targets; each pixel is shared among its particles: P-PHD (14)
+  odds               ///< posterior odds of one target against none; the weights are w l
 };
 
-/// A cloud of particles that looks for targets: the PHD filter of P-PHD section 3.1, over all
-/// motion models of section 4. A scan is predict(), update(), then resample().
+/// The particle PHD filter of P-PHD section 3.1 over all motion models of section 4: it looks for
+/// targets in the whole frame. Each scan takes predict(), update(), then resample().
 class PhdFilter {
  public:
   PhdFilter(const PhdFilterConfig& config, const Device& device, std::uint64_t seed,
-            CloudWeight weight = CloudWeight::expected_targets);
-  /// Sets what targets look like; a change of shape empties the cloud.
+            WeightSum weight_sum = WeightSum::expected_targets);
+  /// Sets what targets look like and removes all particles: their intensities were for another
+  /// point spread.
   void set_appearance(const TargetAppearance& appearance);
 
-  /// Survivors move, births join. P-PHD (9)-(11), (31)-(34). `step` frames have passed since the
-  /// last call; nothing lives or is born in `mask`; `noise_scale` multiplies the process noise's
-  /// standard deviation of each survivor, empty = 1.
+  /// Moves the survivors and adds new-born particles. P-PHD (9)-(11), (31)-(34). `step` [frame] is
+  /// the time since the last call; particles in `mask` lose their weight and none are born there;
+  /// `noise_scale` multiplies the process noise's standard deviation of each survivor, empty = 1.
   void predict(const Frame& z, std::int64_t frame, double step, const PixelMask& mask,
                std::span<const float> noise_scale = {});
   /// P-PHD (13)-(16): likelihood over the window, w l / (clutter + B).
   void update(const Frame& z, std::int64_t frame);
-  /// Takes these particles away, weight and all.
+  /// Sets the weights of these particles to 0.
   void remove(std::span<const std::uint32_t> members);
-  /// Takes everything away.
+  /// Removes all particles.
   void clear();
-  /// Particles of equal weight, their sum kept. P-PHD (20); (24) as corrected if so configured.
+  /// Redraws particles of equal weight with the same sum. P-PHD (20); (24) as corrected if so
+  /// configured.
   void resample(std::int64_t frame);
 
   /// Sum of the weights after the update: expected number of targets, P-PHD (19), or odds.
   double expected() const { return expected_; }
-  /// Fetched from the device. Who changes labels is to send_labels(); nothing else may be changed.
+  const TargetAppearance& appearance() const { return appearance_; }
+  /// Fetched from the device. Only labels may be changed; call send_labels() after that.
   Particles& particles();
   std::span<const std::uint32_t> labels();
   void send_labels();
@@ -86,7 +73,7 @@ class PhdFilter {
   /// The particles by pixel, of the last update.
   const CellRuns& runs() const { return cells_.runs; }
 
-  // Of the cells, births ask for what the last update found there.
+  // Births use the cells of the last update.
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.appearance_, s.births_, s.particles_, s.cells_.runs.cell, s.cells_.cell_sum,
@@ -97,20 +84,20 @@ class PhdFilter {
  private:
   void give_birth(const Frame& z, std::int64_t frame, double step, const PixelMask& mask);
   void set_survivors(const PixelMask& mask);
-  void turn_to_odds();
+  void convert_to_odds();
 
   PhdFilterConfig config_;
   MotionBank bank_;
   Device device_;
   std::uint64_t seed_;
-  CloudWeight weight_;
+  WeightSum weight_sum_;
   TargetAppearance appearance_;
   Births births_;
   ResidentParticles particles_, moved_;
-  bool fetched_ = false;      ///< particles_, since they were last moved or weighed
+  bool fetched_ = false;      ///< whether particles_ are on the host as they are on the device
   float weight_of_each_ = 0;  ///< after resampling
   ResidentArray<float> log_ratio_, updated_;
-  ResidentArray<float> likelihood_;  ///< w_{k|k-1} l, if the cloud is redrawn by it; else empty
+  ResidentArray<float> likelihood_;  ///< w_{k|k-1} l, if particles are redrawn by it; else empty
   CellWorkspace cells_;
   ResampleWorkspace draws_;
   ResidentArray<std::uint32_t> ancestors_;

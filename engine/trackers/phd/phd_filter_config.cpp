@@ -13,15 +13,19 @@ void describe(FieldList& f, MotionConfig& c) {
   f("survival", c.survival, 0, 1, "", "probability that a target lives on to the next frame");
 }
 
-void describe(FieldList& f, PhdFilterConfig& c) {
-  describe(f, static_cast<AppearanceConfig&>(c));
-  describe(f, static_cast<MotionConfig&>(c));
+void describe(FieldList& f, BirthConfig& c) {
   f("birth", c.birth, {"two-frame", "matched-filter", "uniform"},
     "where new particles are drawn; two-frame equals ten times the particles");
   f("birth_particles", c.birth_particles, 1, 10000000, "", "new particles a frame");
   f("birth_mass", c.birth_mass, 0, 1000, "", "expected new targets a frame");
   f("birth_threshold", c.birth_threshold, -100, 100, "sigma",
     "uniform births fall near pixels above this");
+}
+
+void describe(FieldList& f, PhdFilterConfig& c) {
+  describe(f, static_cast<AppearanceConfig&>(c));
+  describe(f, static_cast<MotionConfig&>(c));
+  describe(f, static_cast<BirthConfig&>(c));
   f("particles_per_target", c.particles_per_target, 10, 10000000, "",
     "particles kept for each expected target");
   f("particles_max", c.particles_max, 10, 100000000, "", "particles kept in all");
@@ -29,7 +33,7 @@ void describe(FieldList& f, PhdFilterConfig& c) {
   f("resample_on", c.resample_on, {"weight", "likelihood"},
     "what particles are redrawn by; likelihood leaves out how pixels are shared among targets");
   f("psi", c.psi, {"window", "cell"},
-    "what the normaliser sums over; cell is the paper's and counts straddling clouds twice");
+    "what the normaliser sums over; cell is the paper's and counts a target across cells twice");
   f("clutter", c.clutter, 0, 1000, "",
     "lambda of the normaliser in likelihood-ratio units; the paper's 1 - Phi(Th) inflates noise");
 }

@@ -10,7 +10,7 @@
 
 namespace glint {
 
-/// Pixels that lie in some of a list of boxes; costs the boxes' area to change, not the frame's.
+/// The pixels inside a list of boxes. A change costs the area of the boxes, not that of the frame.
 class PixelMask {
  public:
   /// Replaces the boxes; they are clipped to the frame.

@@ -12,8 +12,8 @@
 
 namespace glint {
 
-/// Particles that are resident on the device: kernels move and weigh them there. The host reads
-/// after fetch() and sends what it writes.
+/// Particles in the device's memory, where kernels move and weigh them. The host reads them after
+/// fetch() and sends what it writes.
 class ResidentParticles {
  public:
   explicit ResidentParticles(const Device& device) : device_(device) {}
@@ -35,7 +35,7 @@ class ResidentParticles {
       resize_resident(device_, values, resident, size);
     });
   }
-  /// Brings the host's bytes up to date; what they held counts for nothing before it.
+  /// Copies the particles from the device to the host, whose values are out of date before.
   void fetch() const {
     arrays_.for_each_array([&](const auto& values) { device_.fetch(std::span(values)); });
   }

@@ -11,27 +11,27 @@ namespace glint {
 SmcPhd::SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t seed)
     : config_(config),
       seed_(seed),
-      bank_(config.bank()),
+      mode_names_(config.bank().names),
       appearance_(config),
-      cloud_(config, device, seed),
+      filter_(config, device, seed),
       identities_(config.identity),
       noise_(config.noise_adaptation) {}
 
 void SmcPhd::step(const Scan& scan, TrackLog& log) {
   if (scan.whitened.width() == 0) return;
-  if (!clock_.started()) log.set_mode_names(bank_.names);
-  if (appearance_.look_at(scan)) cloud_.set_appearance(appearance_);
+  if (!clock_.started()) log.set_mode_names(mode_names_);
+  if (appearance_.look_at(scan)) filter_.set_appearance(appearance_);
   const StepTime at = clock_.tick(scan);
-  const auto scales = noise_.fixed() ? std::span<const float>() : noise_.scales(cloud_.labels());
-  cloud_.predict(scan.whitened, scan.frame, at.step, nothing_, scales);
-  cloud_.update(scan.whitened, scan.frame);
+  const auto scales = noise_.fixed() ? std::span<const float>() : noise_.scales(filter_.labels());
+  filter_.predict(scan.whitened, scan.frame, at.step, no_mask_, scales);
+  filter_.update(scan.whitened, scan.frame);
   report(scan, at, log);
-  cloud_.resample(scan.frame);
+  filter_.resample(scan.frame);
 }
 
 void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
   const int half_width = appearance_.spread().half_width;
-  Particles& particles = cloud_.particles();
+  Particles& particles = filter_.particles();
   std::span<const Peak> found;
   std::span<const std::uint32_t> members;
   std::vector<Peak> classes;
@@ -41,14 +41,14 @@ void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
     found = classes, members = kmeans_members_;
   } else {
     const double radius = appearance_.cluster_radius(config_.cluster_radius);
-    found = peaks_.find(particles, cloud_.runs(), scan.whitened.width(), scan.whitened.height(),
+    found = peaks_.find(particles, filter_.runs(), scan.whitened.width(), scan.whitened.height(),
                         half_width, {config_.existence, radius});
     members = peaks_.members();
   }
   identities_.assign(found, members, particles, scan.frame, scan.time, at.step, at.velocity_scale,
-                     bank_.modes.size(), log);
-  noise_.learn(found, members, particles);
-  cloud_.send_labels();
+                     mode_names_.size(), log);
+  noise_.update(found, members, particles);
+  filter_.send_labels();
 }
 
 template class TrackerOf<SmcPhd>;

@@ -18,10 +18,10 @@ namespace glint {
 
 /// Settings of `smc-phd`.
 struct SmcPhdConfig : PhdFilterConfig {
-  // How the cloud becomes targets.
+  // How particles become targets.
   std::string states = "peaks";
-  double existence = 0.5;
-  double cluster_radius = 0;    ///< [px]; 0 = auto, half the window
+  double existence = 0.5;       ///< least mass of a target
+  double cluster_radius = 0;    ///< half side of a target's box [px]; 0 = auto, half the window
   double noise_adaptation = 1;  ///< Qmax / Qmin; 1 = fixed
   IdentityConfig identity;
 };
@@ -49,12 +49,12 @@ class SmcPhd : public TrackerOf<SmcPhd> {
   std::vector<std::string> notes() const override { return {appearance_.note()}; }
 
   /// Expected number of targets after the last step. P-PHD (19)
-  double expected_targets() const { return cloud_.expected(); }
-  std::size_t particle_count() const { return cloud_.size(); }
+  double expected_targets() const { return filter_.expected(); }
+  std::size_t particle_count() const { return filter_.size(); }
 
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.appearance_, s.cloud_, s.identities_, s.noise_, s.clock_);
+    return std::tie(s.appearance_, s.filter_, s.identities_, s.noise_, s.clock_);
   }
 
  private:
@@ -62,10 +62,10 @@ class SmcPhd : public TrackerOf<SmcPhd> {
 
   SmcPhdConfig config_;
   std::uint64_t seed_;
-  MotionBank bank_;
+  std::vector<std::string> mode_names_;
   TargetAppearance appearance_;
-  PhdFilter cloud_;
-  PixelMask nothing_;
+  PhdFilter filter_;
+  PixelMask no_mask_;
   PeakFinder peaks_;
   std::vector<std::uint32_t> kmeans_members_;
   Identities identities_;

@@ -6,19 +6,13 @@ namespace glint {
 void describe(FieldList& f, SmcPhdConfig& c) {
   describe(f, static_cast<PhdFilterConfig&>(c));
   f("states", c.states, {"peaks", "kmeans"},
-    "how the cloud becomes targets; kmeans is the paper's and fails as soon as n is off");
+    "how particles become targets; kmeans is the paper's and fails as soon as n is off");
   f("existence", c.existence, 0.01, 1, "", "least mass of a reported target");
   f.automatic("cluster_radius", c.cluster_radius, 0, 20, "px",
               "half side of a target's particle box; auto is half the window of the point spread");
   f("noise_adaptation", c.noise_adaptation, 1, 1e6, "",
     "a target's process noise varies from process_noise to this many times it; 1 keeps it fixed");
-  f("confirm_hits", c.identity.confirm_hits, 1, 1000, "frames",
-    "seen this often, a track is confirmed");
-  f("halt_misses", c.identity.halt_misses, 1, 1000, "frames",
-    "missed this often in a row, it ends");
-  f("separation", c.identity.separation, 0, 1000, "px", "no new track this near to a living one");
-  f("reacquire", c.identity.reacquire, 0, 1000, "px",
-    "a lost track takes a new cloud this near to where it should be");
+  describe(f, c.identity);
 }
 
 }  // namespace glint

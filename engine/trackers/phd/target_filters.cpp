@@ -27,7 +27,6 @@ TargetFilters::TargetFilters(const MotionBank& bank, int count, const Device& de
       appearance_(AppearanceConfig{}) {}
 
 void TargetFilters::set_appearance(const TargetAppearance& appearance) {
-  // Intensities keep their peak.
   const auto rescale = static_cast<float>(appearance.spread().intensity_of_snr(0) /
                                           appearance_.spread().intensity_of_snr(0));
   for (float& intensity : particles_.intensity) intensity *= rescale;
@@ -36,7 +35,7 @@ void TargetFilters::set_appearance(const TargetAppearance& appearance) {
 
 void TargetFilters::restored() const {
   require_particles(particles_, bank_.modes.size());
-  require_bytes(particles_.size() % count_ == 0, "a target's cloud is not whole");
+  require_bytes(particles_.size() % count_ == 0, "a target lacks particles");
 }
 
 void TargetFilters::add(const Particles& from, std::span<const std::uint32_t> members,
@@ -49,7 +48,7 @@ void TargetFilters::add(const Particles& from, std::span<const std::uint32_t> me
   draws_.resize(std::max<std::size_t>(draws_.size(), 1));
   device_.run<Resample>({.weights = drawn_from_,
                          .ancestors = ancestors_,
-                         .key = cloud_key(first / count_, frame, Purpose::spawn),
+                         .key = target_key(first / count_, frame, Purpose::spawn),
                          .workspace = draws_.data()});
   const std::array moves = moved_particles(from, 0, particles_, first);
   for (std::size_t i = 0; i < count_; ++i) {
@@ -74,7 +73,7 @@ void TargetFilters::remove(std::size_t t) {
   particles_.resize(particles_.size() - count_);
 }
 
-RandomKey TargetFilters::cloud_key(std::size_t t, std::int64_t frame, Purpose purpose) const {
+RandomKey TargetFilters::target_key(std::size_t t, std::int64_t frame, Purpose purpose) const {
   return random_key(seed_ ^ (static_cast<std::uint64_t>(t) << 32), index_of(frame), purpose);
 }
 
@@ -129,7 +128,7 @@ void TargetFilters::redraw(std::size_t t, std::int64_t frame) {
   const std::array moves = moved_particles(particles_, first, moved_, first);
   device_.run<Resample>({.weights = std::span(particles_.weight).subspan(first, count_),
                          .ancestors = std::span(ancestors_).subspan(first, count_),
-                         .key = cloud_key(t, frame, Purpose::resample),
+                         .key = target_key(t, frame, Purpose::resample),
                          .moved = moves,
                          .workspace = &draws_[t]});
 }

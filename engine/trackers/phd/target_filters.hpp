@@ -15,35 +15,35 @@
 
 namespace glint {
 
-/// What one frame says of a target.
+/// The update of one target by one frame.
 struct TargetUpdate {
-  double mean_ratio = 0;  ///< likelihood ratio, mean over the cloud; 0 if no particle is in view
+  double mean_ratio = 0;  ///< mean likelihood ratio of its particles; 0 if none is inside the frame
   Peak estimate;          ///< weighted moments before resampling; mass 1, or 0 if mean_ratio is 0
 };
 
-/// A particle filter of one known target each, all of them moved and weighed together: P-PHD (26),
-/// (31)-(35) without births. Target t holds particles [t count, (t + 1) count). A scan is
-/// predict(), update(), resample().
+/// One particle filter a target, all predicted and updated together: P-PHD (26), (31)-(35) without
+/// births. Target t has the particles [t count, (t + 1) count). Each scan takes predict(),
+/// update(), then resample().
 class TargetFilters {
  public:
   /// `count` particles a target.
   TargetFilters(const MotionBank& bank, int count, const Device& device, std::uint64_t seed);
+  /// Sets what targets look like; intensities are scaled so that each particle keeps its peak.
   void set_appearance(const TargetAppearance& appearance);
 
   std::size_t size() const { return particles_.size() / count_; }  ///< targets
-  /// One more target, drawn from those particles in proportion to their weight.
+  /// Adds a target, its particles drawn from the `members` of `from` in proportion to their weight.
   void add(const Particles& from, std::span<const std::uint32_t> members, std::int64_t frame);
-  /// One more target: a copy of target `t` of other clouds of the same count.
+  /// Adds a copy of target `t` of other filters with the same number of particles a target.
   void add(const TargetFilters& other, std::size_t t);
-  /// Takes target `t` away; the later ones move up.
+  /// Removes target `t`; the later ones move up.
   void remove(std::size_t t);
   void clear() { particles_.resize(0); }
-  /// Turns time round: velocities point backwards. With a reversed bank predict() then steps into
-  /// the past.
+  /// Reverses all velocities: with a reversed bank predict() then steps into the past.
   void reverse_velocities();
 
   void predict(std::int64_t frame, double step);
-  /// Weighs all clouds by the frame `z`; the result is by target.
+  /// Weighs the particles by the frame `z`; one update a target, valid until the next call.
   std::span<const TargetUpdate> update(const Frame& z, std::int64_t frame);
   void resample(std::int64_t frame);
 
@@ -56,7 +56,7 @@ class TargetFilters {
   void restored() const;
 
  private:
-  RandomKey cloud_key(std::size_t t, std::int64_t frame, Purpose purpose) const;
+  RandomKey target_key(std::size_t t, std::int64_t frame, Purpose purpose) const;
   void weigh(std::size_t t);
   void redraw(std::size_t t, std::int64_t frame);
 

@@ -20,6 +20,7 @@ struct Cloud {
 };
 
 constexpr int kWidth = 60, kHeight = 50;
+constexpr PeakConfig kHalfATarget{.threshold = 0.5, .radius = 2.5};
 
 Particles clouds(const std::vector<Cloud>& clouds) {
   Particles p;
@@ -60,7 +61,7 @@ CellRuns runs_of(const Particles& p, int width = kWidth, int height = kHeight) {
   return cells.runs;
 }
 
-std::vector<Peak> find(const Particles& p, PeakFinder& finder, PeakConfig config = {}) {
+std::vector<Peak> find(const Particles& p, PeakFinder& finder, PeakConfig config = kHalfATarget) {
   const auto found = finder.find(p, runs_of(p), kWidth, kHeight, 2, config);
   return {found.begin(), found.end()};
 }
@@ -116,7 +117,7 @@ TEST(Peaks, AreFoundInTheFarCornerOfTheLargestFrame) {
   const double far = kMaxSide - 5;
   const Particles p = clouds({{far, far, 1.0, 300}});
   PeakFinder finder;
-  const auto peaks = finder.find(p, runs_of(p, kMaxSide, kMaxSide), kMaxSide, kMaxSide, 2, {});
+  const auto peaks = finder.find(p, runs_of(p, kMaxSide, kMaxSide), kMaxSide, kMaxSide, 2, kHalfATarget);
   ASSERT_EQ(peaks.size(), 1u);
   EXPECT_NEAR(peaks[0].x, far, 0.1);
   EXPECT_NEAR(peaks[0].y, far, 0.1);
