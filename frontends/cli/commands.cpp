@@ -4,9 +4,6 @@
 #include <fmt/core.h>
 
 #include "glint/frontends/cli/run_app.hpp"
-#ifdef GLINT_WITH_OPENCV
-#include "glint/frontends/video/video_file.hpp"
-#endif
 
 namespace glint::cli {
 
@@ -18,9 +15,6 @@ std::span<void (*const)(CLI::App&)> all_commands() {
 }
 
 int run(int argc, char** argv) {
-#ifdef GLINT_WITH_OPENCV
-  quiet_video_libraries();
-#endif
   CLI::App app(
       "Finds and follows targets that are too dim for any single frame (track before detect).",
       "glint");

@@ -7,6 +7,7 @@
 
 #include "glint/engine/number_text.hpp"
 #include "glint/frontends/files/tables.hpp"
+#include "glint/frontends/modules/video.hpp"
 
 namespace glint::cli {
 namespace {
@@ -94,13 +95,9 @@ std::vector<PlotRow> plot_of(const ExperimentResult& result) {
   return rows;
 }
 
-#ifdef GLINT_WITH_OPENCV
 void plot_curves(const std::string& path, const ExperimentResult& result) {
   const std::vector<PlotRow> rows = plot_of(result);
-  if (!rows.empty()) write_plot(path, rows);
+  if (has_video() && !rows.empty()) video().write_plot(path, rows);
 }
-#else
-void plot_curves(const std::string&, const ExperimentResult&) {}
-#endif
 
 }  // namespace glint::cli

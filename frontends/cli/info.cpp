@@ -8,12 +8,10 @@
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/experiments/experiment.hpp"
 #include "glint/frontends/cli/commands.hpp"
+#include "glint/frontends/modules/video.hpp"
 #include "glint/kernels/all.hpp"
 #include "glint/kernels/auto_device.hpp"
 #include "glint/kernels/core/device.hpp"
-#ifdef GLINT_WITH_OPENCV
-#include "glint/frontends/video/video_file.hpp"
-#endif
 
 namespace glint::cli {
 namespace {
@@ -31,11 +29,8 @@ void print_entries(const char* title, const Entries& entries) {
 }
 
 std::string video_support() {
-#ifdef GLINT_WITH_OPENCV
-  return "video, images (" + video_backends() + "), FITS, npy, scenes";
-#else
-  return "FITS, npy, scenes (built without OpenCV: no video, no images)";
-#endif
+  if (!has_video()) return "FITS, npy, scenes (built without OpenCV: no video, no images)";
+  return "video, images (" + video().video_backends() + "), FITS, npy, scenes";
 }
 
 void print_egl_devices() {

@@ -10,9 +10,7 @@
 #include "glint/frontends/cli/points_file.hpp"
 #include "glint/frontends/files/npy.hpp"
 #include "glint/frontends/files/tables.hpp"
-#ifdef GLINT_WITH_OPENCV
-#include "glint/frontends/video/image_file.hpp"
-#endif
+#include "glint/frontends/modules/video.hpp"
 
 namespace glint::cli {
 namespace {
@@ -32,17 +30,14 @@ class TiffFrames : public Sink {
  public:
   TiffFrames(std::string folder, bool float32) : folder_(std::move(folder)), float32_(float32) {}
   void take(const ScanResult& result) override {
-#ifdef GLINT_WITH_OPENCV
-    write_image(frame_path(folder_, result.scan.frame), result.scan.raw.view(),
-                float32_ ? ImageDepth::float32 : ImageDepth::bits16);
-#else
-    (void)result;
-#endif
+    video_.write_image(frame_path(folder_, result.scan.frame), result.scan.raw.view(),
+                       float32_ ? ImageDepth::float32 : ImageDepth::bits16);
   }
 
  private:
   std::string folder_;
   bool float32_;
+  const VideoFunctions& video_ = video();
 };
 
 class NpyFrames : public Sink {
@@ -54,19 +49,13 @@ class NpyFrames : public Sink {
   NpyWriter writer_;
 };
 
-std::string default_format() {
-#ifdef GLINT_WITH_OPENCV
-  return "tiff32";
-#else
-  return "npy";
-#endif
-}
+std::string default_format() { return has_video() ? "tiff32" : "npy"; }
 
 std::unique_ptr<Sink> frame_writer(const std::string& folder, const std::string& format) {
   if (format == "npy") return std::make_unique<NpyFrames>(folder);
-#ifndef GLINT_WITH_OPENCV
-  throw UsageError("this glint was built without OpenCV and writes no TIFF; use --format npy");
-#endif
+  if (!has_video()) {
+    throw UsageError("this glint was built without OpenCV and writes no TIFF; use --format npy");
+  }
   return std::make_unique<TiffFrames>(folder, format == "tiff32");
 }
 

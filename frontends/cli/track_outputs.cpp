@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "glint/frontends/modules/video.hpp"
+
 namespace glint::cli {
 namespace {
 
@@ -15,21 +17,12 @@ std::string path_for(const std::string& path, const std::string& tracker) {
   return path.substr(0, dot) + '.' + tracker + path.substr(dot);
 }
 
-std::unique_ptr<ClosingSink> open_overlay(const std::string& path, double frame_rate) {
-#ifdef GLINT_WITH_OPENCV
-  return overlay_video(path, frame_rate, warn);
-#else
-  (void)frame_rate;
-  throw UsageError(path + ": this glint was built without OpenCV; leave --overlay out");
-#endif
-}
-
-std::unique_ptr<ClosingSink> open_picture(const std::string& path) {
-#ifdef GLINT_WITH_OPENCV
-  return overlay_picture(path);
-#else
-  throw UsageError(path + ": this glint was built without OpenCV; leave --picture out");
-#endif
+/// `option` asks for the file.
+const VideoFunctions& video_for(const std::string& path, const char* option) {
+  if (!has_video()) {
+    throw UsageError(path + ": this glint was built without OpenCV; leave " + option + " out");
+  }
+  return video();
 }
 
 }  // namespace
@@ -44,8 +37,12 @@ TrackOutputs::TrackOutputs(const OutputOptions& options, const FrameJob& job, do
       tracks_.push_back({i, TrackFile(file, {tracker, bare_toml(job.sections)}, options.revised)});
     }
   }
-  if (!options.overlay.empty()) pictures_.push_back(open_overlay(options.overlay, frame_rate));
-  if (!options.picture.empty()) pictures_.push_back(open_picture(options.picture));
+  if (const std::string& path = options.overlay; !path.empty()) {
+    pictures_.push_back(video_for(path, "--overlay").overlay_video(path, frame_rate, warn));
+  }
+  if (const std::string& path = options.picture; !path.empty()) {
+    pictures_.push_back(video_for(path, "--picture").overlay_picture(path));
+  }
 }
 
 void TrackOutputs::take(const ScanResult& result) {

@@ -6,15 +6,12 @@
 #include <vector>
 
 #include "glint/engine/scenario/scenario.hpp"
-#include "glint/frontends/files/fits.hpp"
 #include "glint/frontends/files/inputs.hpp"
 #include "glint/frontends/files/npy.hpp"
 #include "glint/frontends/files/points_source.hpp"
 #include "glint/frontends/files/sequence.hpp"
-#ifdef GLINT_WITH_OPENCV
-#include "glint/frontends/video/image_file.hpp"
-#include "glint/frontends/video/video_file.hpp"
-#endif
+#include "glint/frontends/modules/fits.hpp"
+#include "glint/frontends/modules/video.hpp"
 
 namespace glint {
 namespace {
@@ -23,21 +20,18 @@ constexpr std::string_view kScene = "scene:";
 constexpr std::string_view kStandardInput = "-";
 
 std::unique_ptr<Source> open_picture(const std::string& path, InputKind kind, const Warn& warn) {
-#ifdef GLINT_WITH_OPENCV
-  if (kind == InputKind::video) return open_video(path, warn);
-  return open_image(path);
-#else
-  (void)kind, (void)warn;
-  throw UsageError(path +
-                   ": this glint was built without OpenCV and reads no images or videos; "
-                   "give .npy, FITS or scene:NAME");
-#endif
+  if (!has_video()) {
+    throw UsageError(path +
+                     ": this glint was built without OpenCV and reads no images or videos; "
+                     "give .npy, FITS or scene:NAME");
+  }
+  return kind == InputKind::video ? video().open_video(path, warn) : video().open_image(path);
 }
 
 std::unique_ptr<Source> open_file(const std::string& path, const Warn& warn) {
   switch (const InputKind kind = kind_of(path)) {
     case InputKind::fits:
-      return open_fits(path);
+      return fits().open_fits(path);
     case InputKind::npy:
       return open_npy(path);
     default:

@@ -3,10 +3,8 @@
 
 #include <cstdlib>
 
+#include "glint/frontends/modules/module.hpp"
 #include "glint/frontends/usage_error.hpp"
-#ifdef GLINT_WITH_MPI
-#include "glint/frontends/mpi/run_exchange.hpp"
-#endif
 
 namespace glint::cli {
 
@@ -16,7 +14,7 @@ std::unique_ptr<ProcessTeam> mpi_team() {
       std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr;
   if (!launched) return nullptr;
 #ifdef GLINT_WITH_MPI
-  return std::make_unique<RunExchange>();
+  return static_cast<const MpiFunctions*>(open_module("mpi"))->join();
 #else
   throw UsageError(
       "this glint was built without MPI, and cannot share runs; install libopenmpi-dev and build "

@@ -14,8 +14,14 @@ class ProcessTeam : public RunTeam {
   virtual void fail(const std::string& why) = 0;
 };
 
+/// What is done with MPI, which is a module (frontends/modules/module.hpp).
+struct MpiFunctions {
+  std::unique_ptr<ProcessTeam> (*join)();  ///< begins MPI; throws std::runtime_error
+};
+
 /// Those that mpirun or srun started with this one; nothing for a process by itself, in which MPI
-/// is never begun. To be called once. Throws UsageError in a program built without MPI.
+/// is neither loaded nor begun. To be called once. Throws UsageError in a program built without
+/// MPI, and std::runtime_error if MPI cannot be opened or begun.
 std::unique_ptr<ProcessTeam> mpi_team();
 
 }  // namespace glint::cli
