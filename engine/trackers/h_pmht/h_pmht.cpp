@@ -14,17 +14,6 @@ double extent_of(const HPmhtConfig& config) {
   return config.extent > 0 ? config.extent : config.psf_sigma * config.psf_sigma + 0.25;
 }
 
-BatchConfig batch_config(const HPmhtConfig& config) {
-  BatchConfig batch;
-  batch.iterations = config.iterations;
-  batch.estimate_extent = config.estimate_extent;
-  batch.extent_low = config.extent_low, batch.extent_high = config.extent_high;
-  batch.estimate_noise = config.estimate_process;
-  batch.noise_low = 0.1 * config.process_noise, batch.noise_high = 10 * config.process_noise;
-  batch.sensor_area = config.sensor_area;
-  return batch;
-}
-
 double candidate_intensity(const HPmhtConfig& config) {
   return PointSpread::of(config.psf_sigma).intensity_of_snr(config.snr);
 }
@@ -34,7 +23,7 @@ double candidate_intensity(const HPmhtConfig& config) {
 HPmht::HPmht(const HPmhtConfig& config, const Device& device, std::uint64_t /*seed*/)
     : config_(config),
       device_(device),
-      batch_(batch_config(config), device),
+      batch_(config, device),
       pairs_(PointSpread::of(config.psf_sigma), candidate_intensity(config), config.candidate_ratio,
              device) {
   if (std::max(config.confirm_frames, config.halt_frames) > config.batch) {

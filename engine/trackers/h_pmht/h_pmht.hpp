@@ -1,54 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
-#include <string>
 #include <tuple>
 #include <vector>
 
-#include "glint/engine/config.hpp"
 #include "glint/engine/trackers/h_pmht/frame_pair_starts.hpp"
+#include "glint/engine/trackers/h_pmht/h_pmht_config.hpp"
 #include "glint/engine/trackers/h_pmht/hpmht_batch.hpp"
 #include "glint/engine/tracks/tracker.hpp"
 #include "glint/kernels/core/device.hpp"
 #include "glint/kernels/core/point_spread.hpp"
 
 namespace glint {
-
-/// Settings of `h-pmht`. The unit of time is the frame interval, whatever the frame rate.
-struct HPmhtConfig {
-  // What the cells show.
-  std::string intensity = "whitened";
-  double noise_threshold = 1;          ///< [sigma]
-  std::string threshold = "subtract";  ///< m2; "keep" is m1
-  double threshold_scale = 1;          ///< multiple of I_Th, P-HPMHT (23)
-  // What a target looks like.
-  double psf_sigma = 1.0;  ///< [px]
-  double snr = 12;         ///< [dB]
-  bool estimate_extent = false;
-  double extent = 0;                         ///< [px^2]; 0 = auto, psf_sigma^2 + 0.25
-  double extent_low = 1, extent_high = 400;  ///< [px^2]
-  // How it moves.
-  double process_noise = 0.2;  ///< [px^2/frame^3]
-  bool estimate_process = false;
-  double position_variance = 1;    ///< [px^2]
-  double velocity_variance = 0.5;  ///< [px^2/frame^2]
-  double speed_max = 4;            ///< [px/frame]
-  double sensor_area = 20;         ///< [px^2]
-  // Expectation maximisation.
-  int batch = 6;  ///< scans
-  int iterations = 3;
-  // How tracks come and go.
-  bool initiate = true;
-  double candidate_ratio = -0.5;
-  int candidates_max = 200;  ///< a frame
-  double separation = 4;     ///< [px]
-  double duplicate = 3;      ///< [px]
-  double confirm_count = 3.3;
-  int confirm_frames = 5;
-  double halt_count = 1.5;
-  int halt_frames = 3;
-};
-void describe(FieldList& f, HPmhtConfig& c);
 
 /// Histogram probabilistic multi-hypothesis tracker, P-HPMHT, over a sliding batch of scans, with
 /// targets that come and go (docs/trackers/h-pmht.md). Tracks enter the log when they are

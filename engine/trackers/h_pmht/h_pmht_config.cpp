@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/engine/trackers/h_pmht/h_pmht.hpp"
+#include "glint/engine/trackers/h_pmht/hpmht_batch.hpp"
 
 namespace glint {
 

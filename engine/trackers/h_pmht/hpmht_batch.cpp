@@ -10,6 +10,7 @@ namespace glint {
 namespace {
 
 constexpr double kLeastProportion = 1e-9;
+constexpr double kLeastMovement = 1e-3;  // [px]; below, the iterations end
 
 /// e' Q^-1 e for a state that should have followed constant velocity in `step`, Q of unit density.
 double surprise(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double step) {
@@ -150,7 +151,8 @@ void HPmhtBatch::take_noise(std::span<const BatchScan> scans, BatchTarget& targe
   }
   constexpr double kDimensions = 4;
   if (!(weights > 0)) return;
-  target.noise = std::clamp(sum / (kDimensions * weights), config_.noise_low, config_.noise_high);
+  const double start = config_.process_noise;
+  target.noise = std::clamp(sum / (kDimensions * weights), 0.1 * start, 10 * start);
 }
 
 double HPmhtBatch::iterate(std::span<const BatchScan> scans, std::span<BatchTarget> targets) {
@@ -160,14 +162,14 @@ double HPmhtBatch::iterate(std::span<const BatchScan> scans, std::span<BatchTarg
   for (std::size_t k = 0; k < targets.size(); ++k) {
     if (targets[k].first >= scans.size()) continue;
     movement = std::max(movement, maximise(scans, k, targets[k]));
-    if (config_.estimate_noise) take_noise(scans, targets[k]);
+    if (config_.estimate_process) take_noise(scans, targets[k]);
   }
   return movement;
 }
 
 int HPmhtBatch::run(std::span<const BatchScan> scans, std::span<BatchTarget> targets) {
   for (int used = 1; used <= config_.iterations; ++used) {
-    if (iterate(scans, targets) < config_.tolerance) return used;
+    if (iterate(scans, targets) < kLeastMovement) return used;
   }
   return config_.iterations;
 }

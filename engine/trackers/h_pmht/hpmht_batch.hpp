@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "glint/engine/trackers/h_pmht/h_pmht_config.hpp"
 #include "glint/engine/trackers/h_pmht/rts_smoother.hpp"
 #include "glint/kernels/cell_integrals/cell_integrals.hpp"
 #include "glint/kernels/core/device.hpp"
@@ -61,28 +62,16 @@ struct BatchTarget {
   }
 };
 
-struct BatchConfig {
-  int iterations = 8;            ///< at most
-  double tolerance = 1e-3;       ///< movement of the liveliest target at which it stops [px]
-  bool estimate_extent = false;  ///< R, P-HPMHT (18)
-  double extent_low = 1, extent_high = 400;  ///< limits of that [px^2]
-  bool estimate_noise = false;               ///< Q, P-HPMHT (19)
-  double noise_low = 0.1, noise_high = 10;   ///< limits of that
-  /// Motion and prior count as often as the shots of this many cells; at most all of the frame's,
-  /// which is the paper's reading and makes one target the stiffer the larger its frame. [px^2]
-  double sensor_area = 40000;
-};
-
 /// Expectation maximisation over a batch of scans and all targets at once, P-HPMHT section 3 with
 /// the corrections of docs/trackers/h-pmht.md. Each iteration shares out the cells among the
 /// targets and the background, smooths every target over its synthetic measurements, and takes
 /// mixing proportions and extents anew. A common factor of all intensities changes nothing.
 class HPmhtBatch {
  public:
-  HPmhtBatch(const BatchConfig& config, const Device& device) : config_(config), device_(device) {}
+  HPmhtBatch(const HPmhtConfig& config, const Device& device) : config_(config), device_(device) {}
 
-  /// Improves the states from the values they hold, until nothing moves or the iterations are used
-  /// up; returns how many were used.
+  /// Improves the states from the values they hold, until no target moves by 1e-3 px or the
+  /// iterations are used up; returns how many were used.
   int run(std::span<const BatchScan> scans, std::span<BatchTarget> targets);
   /// One iteration; returns the largest movement of a target [px].
   double iterate(std::span<const BatchScan> scans, std::span<BatchTarget> targets);
@@ -108,7 +97,7 @@ class HPmhtBatch {
   double extent(double square, double centroid, double old_mean, double new_mean) const;
   void weigh(std::span<const BatchScan> scans);
 
-  BatchConfig config_;
+  HPmhtConfig config_;
   Device device_;
   std::size_t targets_ = 0;
   std::vector<HistogramTarget> mixture_targets_;

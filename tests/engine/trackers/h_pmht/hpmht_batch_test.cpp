@@ -71,8 +71,10 @@ BatchTarget guess(const Kinematics& at) {
   return t;
 }
 
-BatchConfig paper_weights() {
-  BatchConfig config;
+/// Motion counts as often as the shots of the whole frame, as in the paper.
+HPmhtConfig paper_weights() {
+  HPmhtConfig config;
+  config.iterations = 8;
   config.sensor_area = 1e9;
   return config;
 }
@@ -88,7 +90,7 @@ Scene two_targets() {
 TEST(HPmhtBatch, NoIterationLowersTheObjective) {
   const Movie movie = film(two_targets());
   for (const bool extent : {false, true}) {
-    BatchConfig config = paper_weights();
+    HPmhtConfig config = paper_weights();
     config.estimate_extent = extent;
     HPmhtBatch batch(config, Device::serial());
     std::vector<BatchTarget> targets = two_guesses();
@@ -107,9 +109,9 @@ TEST(HPmhtBatch, NoIterationLowersTheObjective) {
 TEST(HPmhtBatch, AFactorOfAllIntensitiesChangesNothing) {
   const Movie one = film(two_targets()), many = film(two_targets(), 37);
   for (const bool estimate : {false, true}) {
-    BatchConfig config = paper_weights();
-    config.estimate_extent = config.estimate_noise = estimate;
-    config.noise_low = 0.01, config.noise_high = 1;
+    HPmhtConfig config = paper_weights();
+    config.estimate_extent = config.estimate_process = estimate;
+    config.process_noise = 0.1;
     HPmhtBatch batch(config, Device::serial());
     std::vector<BatchTarget> a = two_guesses(), b = two_guesses();
     for (int i = 0; i < 8; ++i) {
@@ -128,7 +130,7 @@ TEST(HPmhtBatch, AFactorOfAllIntensitiesChangesNothing) {
 
 TEST(HPmhtBatch, FindsBothTargetsFromAWrongGuess) {
   const Movie movie = film(two_targets());
-  BatchConfig config;
+  HPmhtConfig config;
   config.sensor_area = 100, config.iterations = 20;
   HPmhtBatch batch(config, Device::tbb(1));
   std::vector<BatchTarget> targets = two_guesses();
@@ -144,7 +146,7 @@ TEST(HPmhtBatch, FindsBothTargetsFromAWrongGuess) {
 
 TEST(HPmhtBatch, MixingProportionsAreTheCountsShares) {
   const Movie movie = film(two_targets());
-  HPmhtBatch batch(BatchConfig{}, Device::serial());
+  HPmhtBatch batch(paper_weights(), Device::serial());
   std::vector<BatchTarget> targets = two_guesses();
   batch.iterate(movie.scans, targets);
   const BatchState& s = targets[0].states[2];
@@ -159,7 +161,7 @@ TEST(HPmhtBatch, LearnsTheExtentOfATarget) {
     scan.rule.threshold = 0;
     SumCells::serial({scan.frame, scan.rule, &scan.total});
   }
-  BatchConfig config;
+  HPmhtConfig config = paper_weights();
   config.estimate_extent = true, config.iterations = 20;
   std::vector<BatchTarget> targets{guess({23, 21, 0, 0})};
   HPmhtBatch(config, Device::serial()).run(movie.scans, targets);
@@ -170,16 +172,17 @@ TEST(HPmhtBatch, LearnsTheExtentOfATarget) {
   EXPECT_EQ(targets[0].states[3].var_x, 4);
 }
 
-TEST(HPmhtBatch, KeepsTheEstimatedNoiseWithinItsLimits) {
+TEST(HPmhtBatch, LearnsNoiseFromATenthToTenTimesTheSetting) {
   const Movie movie = film(two_targets());
-  BatchConfig config = paper_weights();
-  config.estimate_noise = true, config.noise_low = 0.02, config.noise_high = 0.05;
-  HPmhtBatch batch(config, Device::serial());
-  std::vector<BatchTarget> targets = two_guesses();
-  for (int i = 0; i < 10; ++i) batch.iterate(movie.scans, targets);
-  for (const BatchTarget& t : targets) {
-    EXPECT_GE(t.noise, 0.02);
-    EXPECT_LE(t.noise, 0.05);
+  for (const double setting : {1e-9, 1e3}) {
+    HPmhtConfig config = paper_weights();
+    config.estimate_process = true, config.process_noise = setting;
+    HPmhtBatch batch(config, Device::serial());
+    std::vector<BatchTarget> targets = two_guesses();
+    batch.iterate(movie.scans, targets);
+    for (const BatchTarget& t : targets) {
+      EXPECT_DOUBLE_EQ(t.noise, setting * (setting < 1 ? 10 : 0.1));
+    }
   }
 }
 
@@ -189,7 +192,7 @@ TEST(HPmhtBatch, CoastsThroughAScanThatShowsNothing) {
   movie.scans[3].frame = dark.view();
   movie.scans[3].total = {0, 2000};
   std::vector<BatchTarget> targets{guess({7, 11, 2, 0.7})};
-  BatchConfig config;
+  HPmhtConfig config;
   config.sensor_area = 100, config.iterations = 20;
   HPmhtBatch(config, Device::serial()).run(movie.scans, targets);
   EXPECT_NEAR(targets[0].states[3].x, 9 + 2.2 * 3, 0.7);
@@ -204,7 +207,7 @@ TEST(HPmhtBatch, NothingShownAtAllMovesTheGuessOnByItself) {
   scan.frame = dark.view(), scan.total = {0, 2000};
   movie.scans.assign(kScans, scan);
   std::vector<BatchTarget> targets{guess({7, 11, 2, 0.7})};
-  HPmhtBatch(BatchConfig{}, Device::serial()).run(movie.scans, targets);
+  HPmhtBatch(paper_weights(), Device::serial()).run(movie.scans, targets);
   EXPECT_NEAR(targets[0].states[5].x, 7 + 6 * 2, 1e-9);
   EXPECT_NEAR(targets[0].states[5].vy, 0.7, 1e-9);
 }
@@ -214,7 +217,7 @@ TEST(HPmhtBatch, IgnoresScansBeforeATargetsFirst) {
   std::vector<BatchTarget> late{guess({7 + 2 * 2.2, 11 + 2 * 0.8, 2.2, 0.8})};
   late[0].first = 3;
   const BatchState untouched = late[0].states[1];
-  HPmhtBatch(BatchConfig{}, Device::serial()).run(movie.scans, late);
+  HPmhtBatch(paper_weights(), Device::serial()).run(movie.scans, late);
   EXPECT_EQ(late[0].states[1].x, untouched.x);
   EXPECT_EQ(late[0].states[1].count, 0);
 }

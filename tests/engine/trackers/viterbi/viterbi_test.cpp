@@ -13,53 +13,6 @@ namespace {
 
 using namespace test;
 
-/// A window of 5 stages over a 30x20 frame of this score with a straight path of 10 a stage in it.
-PathWindow window_with_path(const Device& device, int first, int last, float elsewhere = -1) {
-  PathWindow window(5, 3, device);
-  for (int k = 0; k < 5; ++k) {
-    const ImageView<float> map = window.next(30, 20);
-    for (int y = 0; y < 20; ++y) std::fill_n(map.row(y), 30, elsewhere);
-    if (k >= first && k < last) map(5 + 2 * k, 4 + k) = 10;
-    window.push({3, 5});  // in a flat first stage ties set the move
-  }
-  return window;
-}
-
-TEST(PathWindow, TracesThePathBack) {
-  PathWindow window = window_with_path(Device::tbb(1), 0, 5);
-  const auto paths = window.find(30);
-  ASSERT_EQ(paths.size(), 1u);
-  EXPECT_EQ(paths[0].total, 50);
-  EXPECT_EQ(paths[0].first, 0u);
-  EXPECT_EQ(paths[0].last, 5u);
-  for (int k = 0; k < 5; ++k) {
-    EXPECT_EQ(paths[0].cells[static_cast<std::size_t>(k)].x, 5 + 2 * k);
-    EXPECT_EQ(paths[0].cells[static_cast<std::size_t>(k)].y, 4 + k);
-  }
-}
-
-TEST(PathWindow, TrimsStagesThatShowNothing) {
-  PathWindow window = window_with_path(Device::tbb(1), 1, 4);
-  const auto paths = window.find(20);
-  ASSERT_EQ(paths.size(), 1u);
-  EXPECT_EQ(paths[0].first, 1u);
-  EXPECT_EQ(paths[0].last, 4u);
-}
-
-TEST(PathWindow, KeepsNoPathUnderTheThresholdOrOfAWindowThatIsNotFull) {
-  PathWindow window = window_with_path(Device::tbb(1), 0, 2);
-  EXPECT_TRUE(window.find(20).empty());
-  PathWindow other(2, 3, Device::tbb(1));
-  other.next(4, 4), other.push({});
-  EXPECT_FALSE(other.full());
-}
-
-TEST(PathWindow, AnotherSizeStartsAnew) {
-  PathWindow window = window_with_path(Device::tbb(1), 0, 5);
-  window.next(8, 8), window.push({});
-  EXPECT_FALSE(window.full());
-}
-
 ViterbiConfig config_for(double snr) {
   ViterbiConfig c;
   c.psf_sigma = 0.7;
@@ -159,6 +112,35 @@ TEST(Viterbi, TakesEmptyAndTinyFrames) {
     tracker.step(scan, log);
   }
   EXPECT_TRUE(log.online().empty());
+}
+
+// The target is at x = 20 until frame 4. Frames 5 to 7 show a bright spot 3 px to the left and a
+// lesser one 3 px to the right; frame 8 tells that the target has gone right, which is too far from
+// the left one.
+TEST(Viterbi, WhatALaterWindowSaysChangesOnlyPointsThatAreNotSettled) {
+  for (const int settled : {1, 2, 3}) {
+    ViterbiConfig config = config_for(16);
+    config.speed_max = 3, config.acceleration_max = 5, config.settled_frames = settled;
+    Viterbi tracker(config, Device::serial(), 1);
+    TrackLog log;
+    for (int k = 0; k <= 8; ++k) {
+      Image<float> image(40, 40);
+      if (k < 5) image.view()(20, 15) = 12;
+      if (k >= 5 && k < 8) image.view()(17, 15) = 12, image.view()(23, 15) = 11;
+      if (k == 8) image.view()(26, 15) = 12;
+      Scan scan;
+      scan.frame = k, scan.time = k, scan.whitened = Frame(std::move(image));
+      tracker.step(scan, log);
+    }
+    ASSERT_EQ(ids(log.revised()).size(), 1u);
+    ASSERT_EQ(log.revised().size(), 9u);
+    for (const TrackPoint& p : log.revised()) {
+      const auto frame = static_cast<int>(p.frame);
+      const int right = frame == 8 ? 26 : 23;
+      const bool revised = 8 - frame < settled;
+      EXPECT_EQ(p.x, frame < 5 ? 20 : revised ? right : 17) << frame << ", settled " << settled;
+    }
+  }
 }
 
 TEST(Viterbi, RefusesACommonStretchLongerThanItsWindow) {
