@@ -122,15 +122,12 @@ struct Reading {
   const char* name;
   int scans;
   WindowReading reading;
-  bool best;
   std::optional<double> most_lost;  // of the tracks [%]
 };
 constexpr std::array kReadings{
-    Reading{"single scan", 1, WindowReading::sliding, false, {}},
-    Reading{"A", 2, WindowReading::restart, false, {}},
-    Reading{"C", 2, WindowReading::sliding, false, {}},
-    // A loses 30 tracks of 6000.
-    Reading{"C*", 2, WindowReading::sliding, true, 0.5},
+    Reading{"single scan", 1, WindowReading::sliding, {}},
+    Reading{"A", 2, WindowReading::restart, {}}, Reading{"C", 2, WindowReading::sliding, {}},
+    Reading{"C*", 2, WindowReading::best, 0.5},  // A loses 30 tracks of 6000
 };
 
 struct Run {
@@ -139,19 +136,18 @@ struct Run {
 };
 
 Run follow(const Reading& reading, std::uint64_t seed) {
-  ImmWindowSettings settings;
-  settings.scans = reading.scans, settings.reading = reading.reading;
-  settings.detection = kDetection, settings.gate = 16;
-  settings.events.best_permutation = reading.best;
-  settings.clutter = JpdaClutter::Number::any;
-  Window window(settings);
+  ImmWindowConfig config;
+  config.window = reading.scans, config.reading = reading.reading;
+  config.detection = kDetection, config.gate = 16;
+  config.clutter = JpdaClutter::Number::any;
+  Window window(config);
   for (std::uint32_t t = 0; t < kTargets; ++t) window.add(start_of(kPaths[t], seed, t));
   Run run;
   double sum = 0;
   for (int k = 1; k <= kScans; ++k) {
     window.step(points_at(k, seed), radar(), 0, 1);
     for (std::size_t t = 0; t < kTargets; ++t) {
-      const Eigen::Vector3d at = position_of<3>(window.bank(t).combined()).mean;
+      const Eigen::Vector3d at = position_of<3>(window.estimate(t).combined()).mean;
       const double square = (at - place(kPaths[t], k)).squaredNorm();
       run.squares[static_cast<std::size_t>(k)] += square / kTargets;
       sum += k >= kFirst && k <= kLast ? square : 0;

@@ -10,15 +10,15 @@ namespace glint {
 namespace {
 
 /// Tracks that are not confirmed are many and short: for them each scan stands alone.
-ImmWindowSettings settings_of(const ImmJpdaConfig& config, int scans) {
-  ImmWindowSettings settings;
-  settings.scans = scans;
-  settings.reading = config.reading == "restart" ? WindowReading::restart : WindowReading::sliding;
-  settings.detection = config.detection, settings.gate = config.gate;
-  settings.events.best_permutation = config.reading == "best";
-  if (config.linearisation == "ukf") settings.linearisation = Linearisation::chords;
-  if (config.clutter == "any") settings.clutter = JpdaClutter::Number::any;
-  return settings;
+ImmWindowConfig window_config(const ImmJpdaConfig& config, int scans) {
+  ImmWindowConfig window;
+  window.window = scans;
+  if (config.reading == "restart") window.reading = WindowReading::restart;
+  if (config.reading == "sliding") window.reading = WindowReading::sliding;
+  window.detection = config.detection, window.gate = config.gate;
+  if (config.linearisation == "ukf") window.linearisation = Linearisation::chords;
+  if (config.clutter == "any") window.clutter = JpdaClutter::Number::any;
+  return window;
 }
 
 PointNoise noise_of(const ImmJpdaConfig& config) {
@@ -30,8 +30,8 @@ PointNoise noise_of(const ImmJpdaConfig& config) {
 
 ImmJpda::ImmJpda(const ImmJpdaConfig& config, const Device&, std::uint64_t /*seed*/)
     : config_(config),
-      confirmed_{SensorWindow(settings_of(config, config.window), noise_of(config)), {}},
-      tentative_{SensorWindow(settings_of(config, 1), noise_of(config)), {}} {
+      confirmed_{SensorWindow(window_config(config, config.window), noise_of(config)), {}},
+      tentative_{SensorWindow(window_config(config, 1), noise_of(config)), {}} {
   check(config);
 }
 
@@ -99,7 +99,7 @@ void ImmJpda::count(const MultiscanReport& report, bool windowed) {
 void ImmJpda::update(TrackSet& set, std::span<const std::uint32_t> points, const StepTime& at) {
   for (std::size_t i = 0; i < set.tracks.size(); ++i) {
     PointTrack& track = set.tracks[i];
-    track.state = set.window.bank(i).combined();
+    track.state = set.window.estimate(i).combined();
     const double missed = set.window.missed(i);
     double amplitude = 0;
     for (std::size_t k = 0; k < set.window.gated(i).size(); ++k) {
@@ -193,7 +193,7 @@ void ImmJpda::move_confirmed() {
       ++i;
       continue;
     }
-    confirmed_.add(tentative_.tracks[i], tentative_.window.bank(i));
+    confirmed_.add(tentative_.tracks[i], tentative_.window.estimate(i));
     tentative_.remove(i);
   }
 }
@@ -201,7 +201,7 @@ void ImmJpda::move_confirmed() {
 void ImmJpda::report(TrackSet& set, const StepTime& at, TrackLog& log) {
   const double rate = config_.clock == "frames" ? at.velocity_scale : 1;
   for (std::size_t i = 0; i < set.tracks.size(); ++i) {
-    glint::report(set.tracks[i], set.window.bank(i).probability(), at, rate, log);
+    glint::report(set.tracks[i], set.window.estimate(i).probability(), at, rate, log);
   }
 }
 

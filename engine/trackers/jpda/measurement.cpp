@@ -6,6 +6,8 @@
 
 #include <Eigen/LU>
 
+#include "glint/engine/trackers/jpda/principal_axes.hpp"
+
 namespace glint {
 namespace {
 
@@ -68,5 +70,7 @@ Gaussian<3> inverse_measurement(const RangeAzimuthElevation& sensor,
                                   std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
   return spread_of(sensor, sensor.place + range * direction);
 }
+
+template PrincipalAxes<2> principal_axes<2>(const Eigen::Matrix2d& covariance);
 
 }  // namespace glint

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "glint/engine/trackers/jpda/measurement.hpp"
+#include "glint/engine/trackers/jpda/principal_axes.hpp"
 
 namespace glint {
 
@@ -14,7 +13,7 @@ namespace glint {
 /// far target's position is uncertain across the line of sight.
 enum class Linearisation { tangent, chords };
 
-/// A measurement about a position: its mean and covariance without noise, and its slope.
+/// A measurement about a position: its mean and covariance without noise, and its derivative.
 template <class Sensor>
 struct LinearMeasurement {
   Measurement<Sensor> mean;
@@ -35,8 +34,7 @@ LinearMeasurement<Sensor> unscented(const Sensor& sensor, const Gaussian<Sensor:
   constexpr int kAxes = Sensor::kAxes;
   constexpr double kWeight =
       1.0 / 6;  // the centre, which differs nothing from itself, has the rest
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, kAxes, kAxes>> principal(
-      position.covariance);
+  const PrincipalAxes<kAxes> principal = principal_axes<kAxes>(position.covariance);
   const Measurement<Sensor> centre = expected_measurement(sensor, position.mean);
   const auto off = [&](const Place<Sensor>& to) {
     Measurement<Sensor> difference = expected_measurement(sensor, position.mean + to) - centre;
@@ -50,8 +48,8 @@ LinearMeasurement<Sensor> unscented(const Sensor& sensor, const Gaussian<Sensor:
   LinearMeasurement<Sensor> result;
   result.covariance.setZero(), result.jacobian.setZero();
   for (int i = 0; i < kAxes; ++i) {
-    const double reach = std::max(std::sqrt(3 * std::max(principal.eigenvalues()(i), 0.0)), least);
-    const Place<Sensor> axis = principal.eigenvectors().col(i);
+    const double reach = std::max(std::sqrt(3 * std::max(principal.variance(i), 0.0)), least);
+    const Place<Sensor> axis = principal.direction.col(i);
     const Measurement<Sensor> ahead = off(reach * axis), behind = off(-reach * axis);
     shift += kWeight * (ahead + behind);
     result.covariance += kWeight * (ahead * ahead.transpose() + behind * behind.transpose());

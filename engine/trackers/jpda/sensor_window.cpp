@@ -7,12 +7,12 @@
 
 namespace glint {
 
-SensorWindow::SensorWindow(const ImmWindowSettings& settings, const PointNoise& noise)
-    : measured_(Measured<PositionSensor<2>>{ImmWindow<PositionSensor<2>>(settings), {}}) {
+SensorWindow::SensorWindow(const ImmWindowConfig& config, const PointNoise& noise)
+    : measured_(Measured<PositionSensor<2>>{ImmWindow<PositionSensor<2>>(config), {}}) {
   if (noise.polar) {
     RangeAzimuth sensor;
     sensor.noise.diagonal() << noise.range_sd * noise.range_sd, noise.azimuth_sd * noise.azimuth_sd;
-    measured_ = Measured<RangeAzimuth>{ImmWindow<RangeAzimuth>(settings), sensor};
+    measured_ = Measured<RangeAzimuth>{ImmWindow<RangeAzimuth>(config), sensor};
   } else {
     std::get<0>(measured_).sensor.noise *= noise.variance;
   }
@@ -44,8 +44,9 @@ MultiscanReport SensorWindow::step(std::span<const Eigen::Vector2d> points,
   return window.step(seen_, sensor, density * mean, elapsed);
 }
 
-Imm& SensorWindow::bank(std::size_t target) {
-  return std::visit([&](auto& m) -> Imm& { return m.window.bank(target); }, measured_);
+const Imm& SensorWindow::estimate(std::size_t target) const {
+  return std::visit([&](const auto& m) -> const Imm& { return m.window.estimate(target); },
+                    measured_);
 }
 
 double SensorWindow::missed(std::size_t target) const {

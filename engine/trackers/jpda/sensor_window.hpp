@@ -20,7 +20,7 @@ struct PointNoise {
 /// position, or range and azimuth from where it stands.
 class SensorWindow {
  public:
-  SensorWindow(const ImmWindowSettings& settings, const PointNoise& noise);
+  SensorWindow(const ImmWindowConfig& config, const PointNoise& noise);
 
   void add(const Imm& bank);
   void remove(std::size_t target);
@@ -28,7 +28,7 @@ class SensorWindow {
   MultiscanReport step(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& place,
                        double density, double elapsed);
 
-  Imm& bank(std::size_t target);
+  const Imm& estimate(std::size_t target) const;
   double missed(std::size_t target) const;
   std::span<const std::uint32_t> gated(std::size_t target) const;
   std::span<const double> shares(std::size_t target) const;
