@@ -19,7 +19,7 @@ BackwardPass::BackwardPass(const FollowedTargetsConfig& config, const MotionConf
       modes_(motion.bank().modes.size()),
       filters_(reversed(motion.bank()), config.target_particles, device, seed ^ kBackward),
       // The detection lies confirm_hits - 1 frames before the confirmation.
-      capacity_(frames > 0 ? static_cast<std::size_t>(frames + config.confirm_hits) : 0) {}
+      capacity_(frames > 0 ? static_cast<std::size_t>(frames + config.confirm_hits - 1) : 0) {}
 
 void BackwardPass::remember(const Frame& z, const StepTime& at,
                             std::span<const FollowedTarget> targets) {

@@ -6,39 +6,138 @@
 #include <array>
 #include <vector>
 
+#include "engine/trackers/phd/few_particles.hpp"
+
 namespace glint {
 namespace {
 
-/// Reports one peak made of one particle without a label.
-void see(Identities& identities, double x, double vx, std::int64_t frame, double step,
-         TrackLog& log) {
-  Particles particles;
-  particles.resize(1);
-  particles.weight[0] = 1, particles.label[0] = 0;
-  Peak peak;
-  peak.mass = 1, peak.x = x, peak.vx = vx, peak.y = 20;
-  peak.first = 0, peak.last = 1;
-  const std::array<std::uint32_t, 1> members{0};
-  identities.assign(std::span(&peak, 1), members, particles, frame, static_cast<double>(frame),
-                    step, 1, 1, log);
-}
+using namespace test;
+
+/// A peak at (x, 20) with the weight that its particles have under each label.
+struct TestPeak {
+  double x = 0, vx = 0;
+  std::vector<std::pair<std::uint32_t, float>> labels{{0, 1.0F}};
+};
+
+class Tracks {
+ public:
+  explicit Tracks(const IdentityConfig& config = {}) : identities_(config) {}
+  /// The next frame, or `step` frames on; returns the labels of the peaks' first particles.
+  std::vector<std::uint32_t> see(const std::vector<TestPeak>& list, int step = 1,
+                                 double velocity_scale = 1) {
+    std::vector<TestParticle> particles;
+    std::vector<Peak> peaks;
+    for (const TestPeak& t : list) {
+      Peak peak;
+      peak.x = t.x, peak.vx = t.vx, peak.y = 20, peak.mass = 0;
+      peak.first = particles.size();
+      for (const auto& [label, weight] : t.labels) {
+        particles.push_back({.weight = weight, .label = label});
+        peak.mass += weight;
+      }
+      peak.last = particles.size();
+      peaks.push_back(peak);
+    }
+    Particles p = particles_of(particles);
+    frame_ += step;
+    identities_.assign(peaks, all_members(p), p, frame_, static_cast<double>(frame_), step,
+                       velocity_scale, 1, log);
+    std::vector<std::uint32_t> labels;
+    for (const Peak& peak : peaks) {
+      for (std::size_t i = peak.first; i < peak.last; ++i) {
+        if (p.label[i] != p.label[peak.first]) ADD_FAILURE() << "one peak, two labels";
+      }
+      labels.push_back(p.label[peak.first]);
+    }
+    return labels;
+  }
+  TrackLog log;
+
+ private:
+  Identities identities_;
+  std::int64_t frame_ = -1;
+};
+
+using Labels = std::vector<std::uint32_t>;
 
 TEST(Identities, ATrackCoastsAtItsVelocityOverAGapOfFrames) {
-  Identities identities{IdentityConfig{}};
-  TrackLog log;
-  see(identities, 10, 4, 0, 1, log);
-  see(identities, 22, 4, 3, 3, log);
-  ASSERT_EQ(log.at(3).size(), 1u);
-  EXPECT_EQ(log.at(3)[0].track_id, log.at(0)[0].track_id);
+  Tracks tracks;
+  EXPECT_EQ(tracks.see({{10, 4}}), Labels{1});
+  EXPECT_EQ(tracks.see({{22, 4}}, 3), Labels{1});
 }
 
 TEST(Identities, APeakFarFromWhereALostTrackShouldBeIsAnotherTarget) {
-  Identities identities{IdentityConfig{}};
-  TrackLog log;
-  see(identities, 10, 4, 0, 1, log);
-  see(identities, 22, 4, 1, 1, log);
-  ASSERT_EQ(log.at(1).size(), 1u);
-  EXPECT_NE(log.at(1)[0].track_id, log.at(0)[0].track_id);
+  Tracks tracks;
+  EXPECT_EQ(tracks.see({{10, 4}}), Labels{1});
+  EXPECT_EQ(tracks.see({{22, 4}}), Labels{2});
+}
+
+TEST(Identities, APeakTakesTheLabelOfMostOfItsWeight) {
+  Tracks tracks;
+  EXPECT_EQ(tracks.see({{10}, {30}}), (Labels{1, 2}));
+  // Three light particles of one track, one heavy particle of the other.
+  EXPECT_EQ(tracks.see({{18, 0, {{1, 0.1F}, {1, 0.1F}, {2, 0.5F}, {1, 0.1F}}}}), Labels{2});
+}
+
+TEST(Identities, OfTwoPeaksOfOneLabelTheHeavierHasIt) {
+  Tracks tracks;
+  EXPECT_EQ(tracks.see({{10}}), Labels{1});
+  EXPECT_EQ(tracks.see({{12, 0, {{1, 0.9F}}}, {30, 0, {{1, 0.6F}}}}), (Labels{1, 2}));
+}
+
+TEST(Identities, ATenthOfTheWeightIsNoLabel) {
+  Tracks tracks;
+  EXPECT_EQ(tracks.see({{10}}), Labels{1});
+  EXPECT_EQ(tracks.see({{30, 0, {{0, 0.91F}, {1, 0.09F}}}}), Labels{2});
+  EXPECT_EQ(tracks.see({{30, 0, {{0, 0.87F}, {1, 0.13F}}}}), Labels{1});
+}
+
+TEST(Identities, ANewTrackKeepsItsDistance) {
+  Tracks tracks;
+  EXPECT_EQ(tracks.see({{10}, {15.9}, {16.1}}), (Labels{1, 0, 2}));
+  EXPECT_EQ(tracks.log.at(0).size(), 2U);
+}
+
+TEST(Identities, ATrackIsConfirmedByItsFourthPeakAndItsEarlierPointsWithIt) {
+  Tracks tracks;
+  for (int k = 0; k < 3; ++k) tracks.see({{10}});
+  EXPECT_EQ(tracks.log.revised().front().status, TrackStatus::tentative);
+  tracks.see({{10}});
+  EXPECT_EQ(tracks.log.at(2)[0].status, TrackStatus::tentative);
+  EXPECT_EQ(tracks.log.at(3)[0].status, TrackStatus::confirmed);
+  EXPECT_EQ(tracks.log.revised().front().status, TrackStatus::confirmed);
+}
+
+TEST(Identities, ATrackEndsAfterThreeFramesInARowWithoutAPeak) {
+  Tracks tracks;
+  for (int k = 0; k < 4; ++k) tracks.see({{10.0 + 2 * k, 2}});
+  tracks.see({}), tracks.see({});
+  EXPECT_EQ(tracks.see({{22, 2}}), Labels{1});  // counted anew from here
+  tracks.see({}), tracks.see({});
+  EXPECT_TRUE(tracks.log.at(8).empty());
+  tracks.see({}, 1, 10);
+  ASSERT_EQ(tracks.log.at(9).size(), 1U);
+  const TrackPoint end = tracks.log.at(9)[0];
+  EXPECT_EQ(end.status, TrackStatus::halted);
+  EXPECT_NEAR(end.x, 28, 1e-9);  // where it was predicted
+  EXPECT_NEAR(end.vx, 20, 1e-9);
+  EXPECT_EQ(tracks.see({{30, 2}}), Labels{2});
+}
+
+TEST(Identities, ATentativeTrackEndsInSilence) {
+  Tracks tracks;
+  tracks.see({{10}});
+  for (int k = 0; k < 3; ++k) tracks.see({});
+  EXPECT_EQ(tracks.log.online().size(), 1U);
+}
+
+TEST(Identities, ReportVelocityInPixelsPerSecondAndExistenceOfAtMostOne) {
+  Tracks tracks;
+  tracks.see({{10, 3, {{0, 0.7F}}}, {30, 0, {{0, 1.4F}}}}, 1, 25);
+  const auto points = tracks.log.at(0);
+  EXPECT_NEAR(points[0].vx, 75, 1e-9);
+  EXPECT_NEAR(points[0].existence, 0.7, 1e-6);
+  EXPECT_EQ(points[1].existence, 1);
 }
 
 }  // namespace

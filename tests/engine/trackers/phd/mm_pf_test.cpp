@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "engine/dim_targets.hpp"
 
 namespace glint {
@@ -25,6 +27,18 @@ TEST(MmPf, DeclaresTargetsOneAfterTheOther) {
   const TrackLog log = track<MmPf>(scene, config_for(15));
   EXPECT_EQ(confirmed_ids(log).size(), 2u);
   for (const auto& p : log.at(25)) EXPECT_LT(distance_to_truth(scene, p), 1.5);
+}
+
+/// Frames from the first declaration to that of the second of two targets.
+std::int64_t frames_between(std::uint64_t seed) {
+  const TrackLog log = track<MmPf>(two_targets(11, 3, 30), config_for(11), seed);
+  std::map<std::int64_t, std::int64_t> first;
+  for (const auto& p : log.online()) first.emplace(p.track_id, p.frame);
+  return first[2] - first[1];
+}
+
+TEST(MmPf, SearchesAnewAfterADeclaration) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) EXPECT_GE(frames_between(seed), 2) << seed;
 }
 
 TEST(MmPf, AStricterTestDeclaresLater) {

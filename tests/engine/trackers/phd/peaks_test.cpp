@@ -7,7 +7,6 @@
 #include <numeric>
 #include <vector>
 
-#include "glint/engine/trackers/phd/kmeans.hpp"
 #include "glint/kernels/core/cells.hpp"
 #include "glint/kernels/core/random.hpp"
 
@@ -117,7 +116,8 @@ TEST(Peaks, AreFoundInTheFarCornerOfTheLargestFrame) {
   const double far = kMaxSide - 5;
   const Particles p = clouds({{far, far, 1.0, 300}});
   PeakFinder finder;
-  const auto peaks = finder.find(p, runs_of(p, kMaxSide, kMaxSide), kMaxSide, kMaxSide, 2, kHalfATarget);
+  const auto peaks =
+      finder.find(p, runs_of(p, kMaxSide, kMaxSide), kMaxSide, kMaxSide, 2, kHalfATarget);
   ASSERT_EQ(peaks.size(), 1u);
   EXPECT_NEAR(peaks[0].x, far, 0.1);
   EXPECT_NEAR(peaks[0].y, far, 0.1);
@@ -129,19 +129,80 @@ TEST(Peaks, OfAnEmptyCloudAreNone) {
   EXPECT_TRUE(find(Particles{}, finder).empty());
 }
 
-TEST(Kmeans, SplitsIntoTheRoundedMass) {
-  const Particles p = clouds({{10, 10, 1.0, 200}, {50, 40, 1.0, 200}});
-  std::vector<std::uint32_t> members;
-  const auto states = kmeans_states(p, random_key(1, 0, Purpose::kmeans), members);
-  EXPECT_EQ(states.size(), 2u);
-  EXPECT_EQ(members.size(), p.size());
+Particles two_particles() {
+  Particles p;
+  p.resize(2);
+  p.x = {10, 14}, p.y = {5, 9}, p.vx = {1, 5}, p.vy = {0, -4};
+  p.ax = p.ay = {0, 0};
+  p.intensity = {20, 40}, p.weight = {0.6F, 0.2F}, p.mode = {0, 2}, p.label = {0, 0};
+  return p;
 }
 
-TEST(Kmeans, OfLessThanHalfATargetIsNone) {
-  std::vector<std::uint32_t> members;
-  const auto states =
-      kmeans_states(clouds({{10, 10, 0.4, 50}}), random_key(1, 0, Purpose::kmeans), members);
-  EXPECT_TRUE(states.empty());
+// Weights .75 and .25: means and covariances by hand, model probabilities P-PHD (35).
+TEST(DescribeCluster, GivesTheWeightedMoments) {
+  const Particles p = two_particles();
+  const std::vector<std::uint32_t> members{0, 1};
+  const Peak peak = describe_cluster(p, members, p.weight);
+  EXPECT_NEAR(peak.mass, 0.8, 1e-6);
+  EXPECT_NEAR(peak.x, 11, 1e-6);
+  EXPECT_NEAR(peak.y, 6, 1e-6);
+  EXPECT_NEAR(peak.vx, 2, 1e-6);
+  EXPECT_NEAR(peak.vy, -1, 1e-6);
+  EXPECT_NEAR(peak.intensity, 25, 1e-5);
+  EXPECT_NEAR(peak.var_x, 3, 1e-5);  // .75 * 1 + .25 * 9
+  EXPECT_NEAR(peak.cov_xy, 3, 1e-5);
+  EXPECT_NEAR(peak.var_y, 3, 1e-5);
+  EXPECT_NEAR(peak.mode_probability[0], 0.75, 1e-6);
+  EXPECT_NEAR(peak.mode_probability[1], 0, 1e-6);
+  EXPECT_NEAR(peak.mode_probability[2], 0.25, 1e-6);
+}
+
+TEST(DescribeCluster, GoesByTheMembersAlone) {
+  const Particles p = two_particles();
+  const std::vector<std::uint32_t> members{1};
+  EXPECT_NEAR(describe_cluster(p, members, p.weight).x, 14, 1e-6);
+}
+
+TEST(PointOf, ConvertsVelocityToSecondsAndKeepsTheModelsThereAre) {
+  const Particles p = two_particles();
+  const std::vector<std::uint32_t> members{0, 1};
+  const TrackPoint point = point_of(describe_cluster(p, members, p.weight), 3, {7, 0.25, 1, 30});
+  EXPECT_EQ(point.frame, 7);
+  EXPECT_EQ(point.time, 0.25);
+  EXPECT_NEAR(point.x, 11, 1e-6);
+  EXPECT_NEAR(point.y, 6, 1e-6);
+  EXPECT_NEAR(point.vx, 60, 1e-4);
+  EXPECT_NEAR(point.vy, -30, 1e-4);
+  EXPECT_NEAR(point.intensity, 25, 1e-5);
+  EXPECT_NEAR(point.cov_xy, 3, 1e-5);
+  ASSERT_EQ(point.mode_probability.size(), 3U);
+  EXPECT_NEAR(point.mode_probability[2], 0.25, 1e-6);
+}
+
+// The heaviest window lies around pixel 22, whose box of 2.5 px ends at 24.5; the mean of the
+// particles in it is 22.18, and the box around that holds the last one, too.
+TEST(Peaks, MoveToTheMeanOfTheirParticles) {
+  Particles p;
+  p.resize(4);
+  p.x = {20.4F, 22.4F, 24.4F, 24.6F}, p.y = {10, 10, 10, 10};
+  p.vx = p.vy = p.ax = p.ay = p.intensity = {0, 0, 0, 0};
+  p.weight = {0.3F, 0.4F, 0.2F, 0.1F};
+  p.mode = p.label = {0, 0, 0, 0};
+  PeakFinder finder;
+  const auto peaks = find(p, finder);
+  ASSERT_EQ(peaks.size(), 1U);
+  EXPECT_EQ(finder.members(peaks[0]).size(), 4U);
+  EXPECT_NEAR(peaks[0].mass, 1, 1e-6);
+  EXPECT_NEAR(peaks[0].x, 22.42, 1e-5);
+}
+
+TEST(Peaks, HoldTheParticlesOfTheirBoxAlone) {
+  const Particles p = clouds({{20, 10, 0.8, 200}, {26, 10, 0.2, 50}});
+  PeakFinder finder;
+  const auto peaks = find(p, finder);
+  ASSERT_EQ(peaks.size(), 1U);
+  EXPECT_NEAR(peaks[0].mass, 0.8, 1e-3);
+  EXPECT_NEAR(peaks[0].x, 20, 0.1);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct Tracked {
 };
 
 Tracked track(const Scene& scene, const SmcPhdConfig& config, std::uint64_t seed = 1,
-              Device device = Device::tbb(1)) {
+              const Device& device = Device::tbb(1)) {
   Tracked run;
   SmcPhd tracker(config, device, seed);
   for (int k = 0; k < scene.frames; ++k) {
@@ -137,6 +137,22 @@ TEST(SmcPhd, ReportsVelocityInPixelsPerSecond) {
   ASSERT_EQ(last.size(), 1u);
   EXPECT_NEAR(last[0].vx, 9, 3);
   EXPECT_NEAR(last[0].vy, 3, 3);
+}
+
+/// Mean of the reported var_x.
+double mean_variance(double noise_adaptation) {
+  SmcPhdConfig config = paper_config(18);
+  config.process_noise = 0.001, config.noise_adaptation = noise_adaptation;
+  const Tracked run = track(scene_of({straight(0, 24, 6, 0.9, 8, 0.4, 18)}), config);
+  double sum = 0;
+  const auto points = confirmed(run.log.online());
+  for (const auto& p : points) sum += p.var_x;
+  return sum / static_cast<double>(points.size());
+}
+
+// P-PHD (21): particles that contract about a target get more process noise.
+TEST(SmcPhd, SpreadsItsParticlesMoreWithAdaptiveNoise) {
+  EXPECT_GT(mean_variance(50), 1.2 * mean_variance(1));
 }
 
 TEST(SmcPhd, RefusesAnEmptyRangeOfStrengths) {

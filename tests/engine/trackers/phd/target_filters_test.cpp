@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
+#include "engine/trackers/phd/few_particles.hpp"
 #include "glint/engine/scenario/scenario.hpp"
-#include "glint/engine/trackers/phd/pixel_mask.hpp"
 
 namespace glint {
 namespace {
@@ -118,6 +118,87 @@ TEST(TargetFilters, OutOfViewHasNoEstimate) {
   EXPECT_EQ(update.estimate.mass, 0);
 }
 
+constexpr double kRatio = 50;
+
+/// Particles that a target's likelihood ratio is known for, in filters of that many a target.
+TargetFilters exact_filters(int count) {
+  TargetFilters f(test::exact_motion().bank(), count, Device::serial(), 5);
+  f.set_appearance(test::ready(test::exact_appearance(kRatio)));
+  return f;
+}
+test::TestParticle exact_particle(float x, float vx = 0) {
+  const auto intensity = static_cast<float>(test::intensity_of_ratio(kRatio));
+  return {.x = x, .y = 15, .vx = vx, .intensity = intensity};
+}
+
+// Half the particles where the target is, half where it is not: L = (l + 1 / l) / 2, P-PHD (13),
+// and the weights of the estimate are l and 1 / l.
+TEST(TargetFilters, UpdatesByTheMeanLikelihoodRatioAndTheWeightedMean) {
+  TargetFilters f = exact_filters(4);
+  const Particles p = test::particles_of({exact_particle(12, 1), exact_particle(30, -1)});
+  f.add(p, all_of(p), 0);
+  const TargetUpdate update = f.update(test::image_of(kRatio, {{12, 15}}), 1)[0];
+  EXPECT_NEAR(update.mean_ratio, (kRatio + 1 / kRatio) / 2, 1e-2);
+  const double share = 1 / (1 + kRatio * kRatio);
+  EXPECT_NEAR(update.estimate.x, 12 + 18 * share, 1e-4);
+  EXPECT_NEAR(update.estimate.vx, 1 - 2 * share, 1e-4);
+  EXPECT_EQ(update.estimate.mass, 1);
+  f.resample(1);
+  for (const float x : f.particles().x) EXPECT_EQ(x, 12);
+}
+
+TEST(TargetFilters, ParticlesKeepTheirPeakUnderAnotherPointSpread) {
+  TargetFilters f = exact_filters(4);
+  const Particles p = test::particles_of({exact_particle(12)});
+  f.add(p, all_of(p), 0);
+  AppearanceConfig wider = test::exact_appearance(kRatio);
+  wider.psf_sigma = 1.4;
+  f.set_appearance(test::ready(wider));
+  // A target of one peak has an intensity in proportion to sigma^2, P-PHD (5).
+  for (const float i : f.particles().intensity) {
+    EXPECT_NEAR(i, 4 * test::intensity_of_ratio(kRatio), 1e-3);
+  }
+}
+
+TEST(TargetFilters, AddDrawsFromTheMembersByTheirWeight) {
+  TargetFilters f = exact_filters(100);
+  Particles p = test::particles_of({exact_particle(10), exact_particle(20), exact_particle(30)});
+  p.weight = {0.3F, 7, 0.1F};
+  const std::vector<std::uint32_t> members{0, 2};
+  f.add(p, members, 0);
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(f.particles().x, 10.0F)), 75, 1);
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(f.particles().x, 30.0F)), 25, 1);
+}
+
+// Two like targets of unlike weights: systematic draws of one random number would be the same.
+TEST(TargetFilters, EachTargetDrawsItsOwnRandomNumbers) {
+  constexpr int kFew = 25;
+  std::vector<test::TestParticle> list(kFew);
+  float next = 11.2F;
+  for (auto& particle : list) particle = exact_particle(next += 0.07F);
+  const Particles p = test::particles_of(list);
+  TargetFilters one = exact_filters(kFew), two = exact_filters(kFew);
+  one.add(p, all_of(p), 0);
+  two.add(one, 0), two.add(one, 0);
+  two.update(test::image_of(kRatio, {{12, 15}}), 1);
+  two.resample(1);
+  const auto& x = two.particles().x;
+  EXPECT_FALSE(std::equal(x.begin(), x.begin() + kFew, x.begin() + kFew));
+}
+
+TEST(TargetFilters, ReversingTurnsBothVelocities) {
+  TargetFilters f = exact_filters(2);
+  Particles p = test::particles_of({exact_particle(12, 1.5F)});
+  p.vy[0] = -2;
+  f.add(p, all_of(p), 0);
+  f.reverse_velocities();
+  f.predict(1, 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(f.particles().x[i], 12 - 3, 1e-5);
+    EXPECT_NEAR(f.particles().y[i], 15 + 4, 1e-5);
+  }
+}
+
 TEST(TargetFilters, RemovingMovesTheLaterOnesUp) {
   TargetFilters c = clouds(motion_bank("cv", 1e-3, 0));
   for (const double x : {10.0, 20.0, 30.0}) {
@@ -149,35 +230,6 @@ TEST(TargetFilters, TimeTurnedRoundLeadsBackToTheStart) {
   for (std::size_t i = 0; i < x0.size(); i += 97) {
     EXPECT_NEAR(back.particles().x[i], x0[i], 1e-3);
   }
-}
-
-TEST(MotionBank, ReversedRowsAreProbabilitiesAndBayes) {
-  const MotionBank bank = motion_bank("cv+ct", 1e-3, 0.2);
-  const MotionBank back = reversed(bank);
-  // Stationary shares of P-PHD (39): (.6, .2, .2).
-  const double share[3] = {0.6, 0.2, 0.2};
-  for (std::size_t j = 0; j < 3; ++j) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      sum += back.switching[j * 3 + i];
-      EXPECT_NEAR(share[j] * back.switching[j * 3 + i], share[i] * bank.switching[i * 3 + j], 1e-6);
-    }
-    EXPECT_NEAR(sum, 1, 1e-6);
-  }
-  EXPECT_EQ(back.modes[1].turn_rate, -bank.modes[1].turn_rate);
-}
-
-TEST(PixelMask, CoversItsBoxesAndForgetsTheOldOnes) {
-  PixelMask mask;
-  mask.set(std::vector<Box>{{2, 3, 5, 6}, {-4, -4, 1, 1}}, 10, 8);
-  EXPECT_TRUE(mask.covers(2.4f, 3.4f));
-  EXPECT_TRUE(mask.covers(0, 0));
-  EXPECT_FALSE(mask.covers(5, 3));
-  EXPECT_FALSE(mask.covers(-1, -1));
-  EXPECT_FALSE(mask.covers(std::nanf(""), 3));
-  mask.set({}, 10, 8);
-  EXPECT_TRUE(mask.empty());
-  EXPECT_FALSE(mask.covers(2.4f, 3.4f));
 }
 
 }  // namespace

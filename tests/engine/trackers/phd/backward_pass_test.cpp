@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glint/engine/trackers/phd/backward_pass.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "engine/trackers/phd/few_particles.hpp"
+
+namespace glint {
+namespace {
+
+using namespace test;
+
+constexpr double kRatio = 100;
+constexpr int kDetected = 6, kConfirmed = 7;  // frames
+
+/// A target that moves 2 px a frame to the right is detected in frame 6 and confirmed in frame 7.
+/// The frames before show it in those of `visible`.
+class Traced {
+ public:
+  explicit Traced(std::vector<int> visible) : visible_(std::move(visible)) {
+    config_.target_particles = 4;
+    config_.existence = 0.2;  // a hit right after a miss reaches it
+    config_.confirm_hits = 2, config_.halt_misses = 2;
+  }
+  /// Another track, number 7, is at these places in that frame.
+  void set_others(int frame, std::vector<Pixel> places) { others_[frame] = std::move(places); }
+
+  /// The points before detection in the revised record, by frame.
+  std::map<std::int64_t, TrackPoint> trace(int backward_frames = 6) {
+    const TargetAppearance appearance = ready(exact_appearance(kRatio));
+    FollowedTargets targets(config_, exact_motion(), Device::serial(), 1);
+    BackwardPass backward(config_, exact_motion(), backward_frames, Device::serial(), 1);
+    targets.set_appearance(appearance), backward.set_appearance(appearance);
+    TrackLog log;
+    for (int k = 0; k < kDetected; ++k) {
+      backward.remember(frame(k), at(k), others(k));
+    }
+    const Particles p =
+        particles_of({{.x = static_cast<float>(place(kDetected).x),
+                       .y = 12,
+                       .vx = 2,
+                       .intensity = static_cast<float>(intensity_of_ratio(kRatio))}});
+    const auto members = all_members(p);
+    const Peak peak = describe_cluster(p, members, p.weight);
+    targets.detect({peak, p, members}, at(kDetected), log);
+    backward.remember(frame(kDetected), at(kDetected), targets.targets());
+    targets.follow(frame(kConfirmed), at(kConfirmed), log);
+    EXPECT_EQ(targets.confirmed_now().size(), 1U);
+    backward.trace(targets, 0, kConfirmed, log);
+    std::map<std::int64_t, TrackPoint> before;
+    for (const auto& point : log.revised()) {
+      if (point.frame < kDetected) before[point.frame] = point;
+    }
+    EXPECT_EQ(log.online().front().frame, kDetected);
+    return before;
+  }
+
+  static Pixel place(int k) { return {10 + 2 * k, 12}; }
+
+ private:
+  static StepTime at(int k) { return {k, k * 0.5, 1, 2}; }  // two frames a second
+  Frame frame(int k) const {
+    const bool visible = k >= kDetected || std::ranges::find(visible_, k) != visible_.end();
+    return visible ? image_of(kRatio, {place(k)}) : empty_frame();
+  }
+  std::vector<FollowedTarget> others(int k) const {
+    std::vector<FollowedTarget> list;
+    const auto there = others_.find(k);
+    if (there == others_.end()) return list;
+    for (const Pixel& p : there->second) {
+      list.emplace_back();
+      list.back().id = 7, list.back().estimate.x = p.x, list.back().estimate.y = p.y;
+    }
+    return list;
+  }
+
+  FollowedTargetsConfig config_;
+  std::vector<int> visible_;
+  std::map<int, std::vector<Pixel>> others_;
+};
+
+std::vector<std::int64_t> frames_of(const std::map<std::int64_t, TrackPoint>& points) {
+  std::vector<std::int64_t> frames(points.size());
+  std::ranges::transform(points, frames.begin(), [](const auto& point) { return point.first; });
+  return frames;
+}
+
+using Frames = std::vector<std::int64_t>;
+
+TEST(BackwardPass, FindsWhereTheTargetWasBeforeItsDetection) {
+  const auto points = Traced({3, 4, 5}).trace();
+  EXPECT_EQ(frames_of(points), (Frames{3, 4, 5}));
+  for (const auto& [frame, point] : points) {
+    EXPECT_EQ(point.track_id, 1);
+    EXPECT_EQ(point.status, TrackStatus::confirmed);
+    EXPECT_NEAR(point.x, Traced::place(static_cast<int>(frame)).x, 1e-3);
+    EXPECT_NEAR(point.y, 12, 1e-3);
+    EXPECT_NEAR(point.time, static_cast<double>(frame) * 0.5, 1e-12);
+  }
+}
+
+TEST(BackwardPass, ReportsTheForwardVelocityInPixelsPerSecond) {
+  for (const auto& [frame, point] : Traced({3, 4, 5}).trace()) {
+    EXPECT_NEAR(point.vx, 4, 1e-3) << frame;  // 2 px/frame, two frames a second
+    EXPECT_NEAR(point.vy, 0, 1e-3) << frame;
+  }
+}
+
+// (14) and (19) from n = 1 at detection: n = W L / (1 + W L), W = e n.
+TEST(BackwardPass, CarriesTheExistenceBackwards) {
+  const auto points = Traced({4, 5}).trace();
+  double n = 1;
+  for (const int frame : {5, 4}) {
+    const double odds = 0.99 * n * kRatio;
+    n = odds / (1 + odds);
+    EXPECT_NEAR(points.at(frame).existence, n, 1e-5);
+  }
+}
+
+TEST(BackwardPass, ReportsAMissOnlyIfTheTargetIsSeenBeforeIt) {
+  EXPECT_EQ(frames_of(Traced({3, 5}).trace()), (Frames{3, 4, 5}));
+  EXPECT_EQ(frames_of(Traced({5}).trace()), (Frames{5}));
+}
+
+TEST(BackwardPass, EndsAtTheMissesInARowThatEndATrack) {
+  EXPECT_EQ(frames_of(Traced({2, 5}).trace()), (Frames{5}));
+  EXPECT_EQ(frames_of(Traced({1, 3, 5}).trace()), (Frames{1, 2, 3, 4, 5}));
+}
+
+TEST(BackwardPass, EndsBeforeItRunsOverAnotherTrack) {
+  Traced near({2, 3, 4, 5}), far = near;
+  const Pixel place = Traced::place(3);
+  near.set_others(3, {{place.x, place.y + 5}});
+  far.set_others(3, {{place.x, place.y + 6}});
+  EXPECT_EQ(frames_of(near.trace()), (Frames{4, 5}));
+  EXPECT_EQ(frames_of(far.trace()), (Frames{2, 3, 4, 5}));
+}
+
+TEST(BackwardPass, OfNoFramesDoesNothing) { EXPECT_TRUE(Traced({3, 4, 5}).trace(0).empty()); }
+
+TEST(BackwardPass, GoesBackThatManyFrames) {
+  EXPECT_EQ(frames_of(Traced({0, 1, 2, 3, 4, 5}).trace(2)), (Frames{4, 5}));
+}
+
+}  // namespace
+}  // namespace glint
