@@ -23,7 +23,7 @@ Config for_known(const PointScans& scans) {
   if constexpr (std::is_base_of_v<PointTrackConfig, Config>) {
     keep_to_known(config);
   } else {
-    config.measurement_variance = 1, config.halt_misses = 1000, config.separation = 0;
+    config.measurement_variance = 1, config.life.halt_misses = 1000, config.separation = 0;
   }
   return config;
 }

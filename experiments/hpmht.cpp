@@ -43,7 +43,7 @@ ImmPdaAiConfig imm_pda_ai(const char* threshold, double scale) {
   ImmPdaAiConfig config;
   config.points = "units", config.threshold = threshold, config.threshold_scale = scale;
   config.initiate = false;
-  config.halt_misses = 1000;
+  config.life.halt_misses = 1000;
   return config;
 }
 

@@ -17,11 +17,7 @@ void describe(FieldList& f, PointTrackConfig& c) {
   describe(f, c.life);
 }
 
-void check(const PointTrackConfig& config) {
-  if (config.life.confirm_hits > config.life.confirm_window) {
-    throw ConfigError("confirm_hits must not exceed confirm_window: lower it or widen the window");
-  }
-}
+void check(const PointTrackConfig& config) { check(config.life); }
 
 void keep_to_known(PointTrackConfig& config) {
   config.initiate = false;

@@ -5,11 +5,8 @@
 #include <cmath>
 
 namespace glint {
-namespace {
 
 bool placed(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
-}  // namespace
 
 void PointArea::see(const Scan& scan) {
   const Frame& frame = scan.raw ? scan.raw : scan.whitened;
@@ -28,13 +25,10 @@ double PointArea::size(double margin) const {
 }
 
 void ScanPoints::take(const Scan& scan) {
-  positions.clear(), amplitudes.clear();
+  clear();
   for (const Point& p : scan.points) {
-    if (!placed(p)) continue;
-    positions.emplace_back(p.x, p.y);
-    amplitudes.push_back(static_cast<double>(p.amplitude));
+    if (placed(p)) add({p.x, p.y}, static_cast<double>(p.amplitude));
   }
-  claimed.assign(positions.size(), 0);
   area.see(scan);
 }
 

@@ -10,6 +10,9 @@
 
 namespace glint {
 
+/// Its place is known.
+bool placed(const Point& point);
+
 /// Where points may lie: the frame, or without one the box about all points so far.
 class PointArea {
  public:
@@ -38,6 +41,11 @@ struct ScanPoints {
   PointArea area;
 
   void take(const Scan& scan);
+  /// One by one, for trackers that choose or find their points themselves.
+  void clear() { positions.clear(), amplitudes.clear(), claimed.clear(); }
+  void add(const Eigen::Vector2d& position, double amplitude) {
+    positions.push_back(position), amplitudes.push_back(amplitude), claimed.push_back(0);
+  }
   bool free(std::size_t point) const { return claimed[point] < kClaimed; }
   /// Of the points beyond one a target, at least one point [1/px^2].
   double false_density(std::size_t targets, double margin = 0) const;

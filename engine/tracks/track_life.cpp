@@ -5,6 +5,12 @@
 
 namespace glint {
 
+void check(const HitLogic& logic) {
+  if (logic.confirm_hits > logic.confirm_window) {
+    throw ConfigError("confirm_hits must not exceed confirm_window: lower it or widen the window");
+  }
+}
+
 void describe(FieldList& f, TrackLifeConfig& c) {
   f("survival", c.survival, 0.01, 1, "", "probability that a target lasts from scan to scan");
   f("birth_existence", c.birth_existence, 1e-6, 0.999, "",
@@ -26,14 +32,26 @@ TrackLife::TrackLife(const TrackLifeConfig& config, bool known)
 void TrackLife::see(const TrackLifeConfig& config, bool hit, double ratio, double step) {
   const double predicted = existence_ * std::pow(config.survival, step);
   existence_ = ratio * predicted / (1 - predicted + ratio * predicted);
+  judge(config, hit, existence_ >= config.confirm_existence, existence_ < config.halt_existence);
+}
+
+TrackLife::TrackLife(const HitLogic& logic, bool known)
+    : existence_(TrackPoint::kUnknown),
+      confirmed_(known || logic.confirm_hits <= 1),
+      age_(1),
+      hits_(1) {}
+
+void TrackLife::see(const HitLogic& logic, bool hit) { judge(logic, hit, true, false); }
+
+/// `sure` and `unlikely`: what the probability of existence says.
+void TrackLife::judge(const HitLogic& logic, bool hit, bool sure, bool unlikely) {
   ++age_, hits_ += hit, misses_ = hit ? 0 : misses_ + 1;
   if (confirmed_) {
-    over_ = (config.halt_misses > 0 && misses_ >= config.halt_misses) ||
-            existence_ < config.halt_existence;
+    over_ = (logic.halt_misses > 0 && misses_ >= logic.halt_misses) || unlikely;
     return;
   }
-  confirmed_ = hits_ >= config.confirm_hits && existence_ >= config.confirm_existence;
-  over_ = !confirmed_ && (age_ >= config.confirm_window || existence_ < config.halt_existence);
+  confirmed_ = hits_ >= logic.confirm_hits && sure;
+  over_ = !confirmed_ && (age_ >= logic.confirm_window || unlikely);
 }
 
 TrackStatus TrackLife::status() const {

@@ -68,7 +68,7 @@ struct Case {
     if constexpr (std::is_base_of_v<PointTrackConfig, Config>) {
       keep_to_known(config);
     } else {
-      config.halt_misses = 1000, config.separation = 0;
+      config.life.halt_misses = 1000, config.separation = 0;
     }
     T tracker(config, Device::tbb(1), 1);
     for (const Kinematics& k : bench::EndlessPoints(1).starts()) {

@@ -8,7 +8,10 @@
 #include "glint/engine/config.hpp"
 #include "glint/engine/filters/imm.hpp"
 #include "glint/engine/trackers/imm_pda_ai/amplitude.hpp"
+#include "glint/engine/tracks/point_track.hpp"
 #include "glint/engine/tracks/scan_points.hpp"
+#include "glint/engine/tracks/step_clock.hpp"
+#include "glint/engine/tracks/track_life.hpp"
 #include "glint/engine/tracks/tracker.hpp"
 #include "glint/kernels/core/device.hpp"
 
@@ -31,11 +34,10 @@ struct ImmPdaAiConfig {
   double clutter_density = 0;  ///< [1/px^2]; 0 = auto, points / area of the frame or of all points
   // How tracks come and go.
   bool initiate = true;
-  double start_amplitude = 5;                ///< [sigma]
-  double velocity_sd = 2;                    ///< of a new target [px/frame]
-  int confirm_hits = 4, confirm_window = 5;  ///< scans
-  int halt_misses = 4;                       ///< scans
-  double separation = 6;                     ///< [px]
+  double start_amplitude = 5;  ///< [sigma]
+  double velocity_sd = 2;      ///< of a new target [px/frame]
+  HitLogic life{.confirm_hits = 4, .confirm_window = 5, .halt_misses = 4};
+  double separation = 6;  ///< [px]
 };
 void describe(FieldList& f, ImmPdaAiConfig& c);
 
@@ -49,73 +51,52 @@ class ImmPdaAi : public TrackerOf<ImmPdaAi> {
   Feed feed() const override { return config_.points == "units" ? Feed::frames : Feed::both; }
   /// A confirmed track that is at (x, y) [px] with velocity (vx, vy) [px/frame] at the next scan;
   /// the scans after that move it.
-  void start(double x, double y, double vx, double vy) { starts_.push_back({x, y, vx, vy}); }
+  void start(double x, double y, double vx, double vy) { known_.push_back({x, vx, y, vy}); }
   void step(const Scan& scan, TrackLog& log) override;
 
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.starts_, s.tracks_, s.next_id_, s.last_frame_, s.last_time_, s.area_);
+    return std::tie(s.clock_, s.known_, s.tracks_, s.next_id_, s.points_.area);
   }
-  void restored();
+  void restored() const;
 
  private:
-  struct Start {
-    double x, y, vx, vy;
-    template <class Self>
-    static auto fields(Self& s) {
-      return std::tie(s.x, s.y, s.vx, s.vy);
-    }
-  };
-  struct Measurement {
-    Eigen::Vector2d position;
-    double amplitude;  ///< [sigma]
-    bool free = true;  ///< in the gate of no track
-  };
-  struct Track {
-    std::int64_t id = 0;
-    std::int64_t first_frame = 0, last_seen = 0;
+  struct Track : PointTrack {
     Imm imm;
-    TargetAmplitude amplitude;
-    Eigen::Vector2d position;  ///< [px]: asked for by every other track, so kept
-    bool confirmed = false, over = false;
-    int age = 1, hits = 1, misses = 0;  ///< scans
     template <class Self>
     static auto fields(Self& s) {
-      return std::tie(s.id, s.first_frame, s.last_seen, s.imm, s.amplitude, s.position, s.confirmed,
-                      s.over, s.age, s.hits, s.misses);
+      return std::tuple_cat(PointTrack::fields(s), std::tie(s.imm));
     }
   };
 
   void measure(const Scan& scan);
-  void take_units(FrameView frame);
-  void set_clutter(const Scan& scan);
-  void associate(const Track& track);
-  void update(Track& track, std::int64_t frame);
-  void learn(Track& track, std::size_t points, std::int64_t frame) const;
+  void measure_units(FrameView frame);
+  void set_clutter();
+  void gate(const Imm& imm);
+  void update(Track& track, const StepTime& at);
+  void update_life(Track& track, const StepTime& at) const;
   void end_duplicates();
-  Imm bank_at(const Start& at) const;
-  Track track_at(const Start& at, double amplitude, std::int64_t frame);
-  void add_starts(const Scan& scan);
-  void start_from_free_points(const Scan& scan);
-  bool crowded(const Eigen::Vector2d& position) const;
-  void report(const Scan& scan, double rate, TrackLog& log);
+  Imm bank_at(const Eigen::Vector4d& state) const;
+  void add(const Imm& imm, double amplitude, bool known, const StepTime& at);
+  void start_known(const StepTime& at);
+  void start_from_free_points(const StepTime& at);
+  bool near_a_track(const Eigen::Vector2d& position) const;
 
   ImmPdaAiConfig config_;
   Device device_;
   Eigen::Matrix2d noise_;
   AmplitudeModel amplitude_model_;
   double miss_;  ///< 1 - P_D P_G
-  std::vector<Start> starts_;
-  std::vector<Track> tracks_;  ///< by rising id
-  std::int64_t next_id_ = 1, last_frame_ = -1;
-  double last_time_ = 0;
+  StepClock clock_;
+  std::vector<Eigen::Vector4d> known_;  ///< [x vx y vy]
+  std::vector<Track> tracks_;           ///< by rising id
+  std::int64_t next_id_ = 1;
 
-  std::vector<Measurement> measurements_;
-  double clutter_ = 0;  ///< [1/px^2]
-  PointArea area_;
-  double amplitude_threshold_ = 0;  ///< [sigma] that every measurement exceeds
+  ScanPoints points_;
+  double clutter_ = 0;              ///< [1/px^2]
+  double amplitude_threshold_ = 0;  ///< [sigma] that every point exceeds
   // Of the track at hand.
-  std::vector<bool> gated_;
+  std::vector<bool> inside_;  ///< by point: in its gate
   std::vector<Eigen::Vector2d> positions_;
   std::vector<double> amplitudes_, log_ratio_;
   std::vector<double> beta_;  ///< by model: none of the points, then each

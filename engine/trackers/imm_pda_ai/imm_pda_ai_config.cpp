@@ -27,10 +27,11 @@ void describe(FieldList& f, ImmPdaAiConfig& c) {
   f("initiate", c.initiate, "start tracks from points that are in no track's gate");
   f("start_amplitude", c.start_amplitude, -1000, 1000, "sigma", "least amplitude of a start");
   f("velocity_sd", c.velocity_sd, 0, 1000, "px/frame", "spread of a new target's velocity");
-  f("confirm_hits", c.confirm_hits, 1, 1000, "scans", "seen this often ...");
-  f("confirm_window", c.confirm_window, 1, 1000, "scans",
+  f("confirm_hits", c.life.confirm_hits, 1, 1000, "scans", "seen this often ...");
+  f("confirm_window", c.life.confirm_window, 1, 1000, "scans",
     "... within so many scans, a track is confirmed, else it ends");
-  f("halt_misses", c.halt_misses, 1, 1000, "scans", "missed this often in a row, a track ends");
+  f("halt_misses", c.life.halt_misses, 1, 1000, "scans",
+    "missed this often in a row, a track ends");
   f("separation", c.separation, 0, 1000, "px",
     "no new track this near to a living one, and of two this near the younger ends");
 }

@@ -9,21 +9,21 @@
 namespace glint {
 
 void ImmPdaAi::measure(const Scan& scan) {
-  measurements_.clear();
-  if (config_.points == "units") return take_units(scan.raw.view());
+  points_.clear(), points_.area.see(scan);
+  if (config_.points == "units") return measure_units(scan.raw.view());
   amplitude_threshold_ = std::numeric_limits<double>::infinity();
   for (const Point& point : scan.points) {
     // Points whose amplitude is unknown are all alike, and bright enough to start a track.
     const double amplitude = std::isnan(point.amplitude) ? config_.start_amplitude
                                                          : static_cast<double>(point.amplitude);
-    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(amplitude)) continue;
-    measurements_.push_back({{point.x, point.y}, amplitude});
+    if (!placed(point) || !std::isfinite(amplitude)) continue;
+    points_.add({point.x, point.y}, amplitude);
     amplitude_threshold_ = std::min(amplitude_threshold_, amplitude);
   }
 }
 
 /// P-HPMHT (20); amplitudes in robust sigmas of all units' means.
-void ImmPdaAi::take_units(FrameView frame) {
+void ImmPdaAi::measure_units(FrameView frame) {
   if (frame.empty()) return;
   FindPoints::Args args;
   args.map = frame;
@@ -43,15 +43,14 @@ void ImmPdaAi::take_units(FrameView frame) {
   for (const Point& unit : units_) {
     const double mean = static_cast<double>(unit.amplitude);
     if (mean < threshold) continue;
-    measurements_.push_back({{unit.x, unit.y}, (mean - clutter.median) / sigma});
+    points_.add({unit.x, unit.y}, (mean - clutter.median) / sigma);
   }
 }
 
-void ImmPdaAi::set_clutter(const Scan& scan) {
-  area_.see(scan);
-  const auto count = static_cast<double>(std::max<std::size_t>(measurements_.size(), 1));
-  clutter_ =
-      config_.clutter_density > 0 ? config_.clutter_density : count / std::max(area_.size(), count);
+/// All points count, those of the targets included; there is at most one a pixel.
+void ImmPdaAi::set_clutter() {
+  clutter_ = config_.clutter_density > 0 ? config_.clutter_density
+                                         : std::min(points_.false_density(0), 1.0);
 }
 
 }  // namespace glint

@@ -141,7 +141,7 @@ TEST(ImmPdaAi, ClutterDensityIsThePointsOverTheArea) {
 
 ImmPdaAiConfig life_config() {
   ImmPdaAiConfig c;
-  c.confirm_hits = 3, c.confirm_window = 4, c.halt_misses = 3;
+  c.life = {.confirm_hits = 3, .confirm_window = 4, .halt_misses = 3};
   return c;
 }
 
@@ -162,7 +162,7 @@ TEST(ImmPdaAi, ConfirmsATrackSeenOftenEnoughInItsWindow) {
   EXPECT_EQ(life(life_config(), "x.xx"), "tttc");
   EXPECT_EQ(life(life_config(), "x..x"), "ttt-");
   ImmPdaAiConfig at_once = life_config();
-  at_once.confirm_hits = at_once.confirm_window = 1;
+  at_once.life.confirm_hits = at_once.life.confirm_window = 1;
   EXPECT_EQ(life(at_once, "xx"), "cc");
 }
 
@@ -232,6 +232,50 @@ TEST(ImmPdaAi, OfTwoThatComeCloseTheYoungerEnds) {
   EXPECT_EQ(run.last()[0].track_id, 1);
 }
 
+// The younger goes on if it alone is confirmed.
+TEST(ImmPdaAi, OfTwoThatComeCloseTheConfirmedGoesOn) {
+  ImmPdaAiConfig config = life_config();
+  config.amplitude = "none", config.life.confirm_hits = 4;
+  Tracking run(config);
+  run.step({{50, 50, kBright}});
+  run.tracker.start(51, 50, 0, 0);
+  run.step({{50, 50, kBright}});
+  run.step({{50, 50, kBright}});
+  ASSERT_EQ(run.last().size(), 1u);
+  EXPECT_EQ(run.last()[0].track_id, 2);
+  EXPECT_EQ(run.last()[0].status, TrackStatus::confirmed);
+}
+
+// A known target is as bright as the brightest point of its gate.
+TEST(ImmPdaAi, KnownTargetsTakeTheAmplitudeOfTheirPoint) {
+  ImmPdaAiConfig config = kalman_config();
+  config.gate = 9.21;
+  Tracking run(config);
+  run.tracker.start(20, 30, 0, 0), run.tracker.start(70, 70, 0, 0);
+  run.step({{21, 30, 7}, {19, 30, 9}, {50, 50, 30}});
+  EXPECT_EQ(run.last().at(0).intensity, 9);
+  EXPECT_EQ(run.last().at(1).intensity, config.start_amplitude);
+}
+
+// More points than pixels: there is at most one a pixel.
+TEST(ImmPdaAi, ClutterIsNoDenserThanOnePointAPixel) {
+  const auto text = [](double density) {
+    ImmPdaAiConfig config;
+    config.clutter_density = density, config.amplitude = "none", config.initiate = false;
+    ImmPdaAi tracker(config, Device::serial(), 1);
+    TrackLog log;
+    tracker.start(0.5, 0.5, 0, 0);
+    const Points points{{0, 0, 9}, {1, 1, 9}, {0.4F, 0.6F, 9}};  // in 1 px^2
+    for (int k = 0; k < 3; ++k) {
+      Scan scan;
+      scan.frame = k, scan.points = points;
+      tracker.step(scan, log);
+    }
+    return log.text();
+  };
+  EXPECT_EQ(text(0), text(1));
+}
+
 /// 50x50 pixels of grey level 100 with 5x5 units of these levels in the middle row.
 Frame units_frame(const std::vector<float>& levels) {
   Image<float> image(50, 50);
@@ -291,7 +335,7 @@ TEST(ImmPdaAi, TakesScansWithoutPointsOrFrames) {
 
 TEST(ImmPdaAi, RefusesMoreHitsThanItsWindowHolds) {
   ImmPdaAiConfig config;
-  config.confirm_hits = 6, config.confirm_window = 5;
+  config.life.confirm_hits = 6, config.life.confirm_window = 5;
   EXPECT_THROW(ImmPdaAi(config, Device::serial(), 1), ConfigError);
 }
 

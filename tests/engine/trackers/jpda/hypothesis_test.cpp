@@ -51,12 +51,13 @@ TEST(NumberHistories, GivesLikeHistoriesOneNumber) {
 }
 
 TEST(NumberHistories, CountsEachTargetFromZero) {
-  const std::vector<Hypothesis<2>> first{{history({1}), {}}, {history({2}), {}}};
-  const std::vector<Hypothesis<2>> second{{history({2}), {}}, {history({2}), {}}};
+  const std::vector<Hypothesis<2>> first{{history({1}), {}}, {history({1}), {}}};
+  const std::vector<Hypothesis<2>> second{
+      {history({5}), {}}, {history({6}), {}}, {history({6}), {}}};
   std::vector<std::uint32_t> numbers;
   number_histories<2>(first, numbers);
   number_histories<2>(second, numbers);
-  EXPECT_EQ(numbers, (std::vector<std::uint32_t>{0, 1, 0, 0}));
+  EXPECT_EQ(numbers, (std::vector<std::uint32_t>{0, 0, 0, 1, 1}));
 }
 
 }  // namespace
