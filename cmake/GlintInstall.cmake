@@ -20,6 +20,13 @@ foreach(layer kernels engine)
     FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl" PATTERN "lanes*.hpp" EXCLUDE)
 endforeach()
 
+# The interface; what it takes in is above.
+install(FILES ${PROJECT_SOURCE_DIR}/include/glint/glint.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/glint COMPONENT dev)
+install(FILES ${PROJECT_SOURCE_DIR}/examples/track_raw.cpp ${PROJECT_SOURCE_DIR}/examples/track_raw.c
+  ${PROJECT_SOURCE_DIR}/examples/resume_raw.c
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT dev)
+
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glint)
 install(EXPORT glintTargets NAMESPACE glint:: DESTINATION ${package_dir} COMPONENT dev)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/glintConfig.cmake.in

@@ -65,6 +65,10 @@ const std::string& chosen(const ConfigField& field, const ConfigValue& value) {
   refuse(field, choices.empty() ? "a text in quotes" : allowed(field), value);
 }
 
+bool is_number(const ConfigField& field) {
+  return std::holds_alternative<int*>(field.value) || std::holds_alternative<double*>(field.value);
+}
+
 template <class T>
 std::optional<T> parse(std::string_view text) {
   T value{};
@@ -106,6 +110,12 @@ void FieldList::operator()(std::string key, std::string& value, std::vector<std:
   fields_.push_back({std::move(key), &value, 0, 0, std::move(choices), {}, std::move(help)});
 }
 
+void FieldList::add_choices(std::string key, ChosenValue value, std::vector<std::string> names,
+                            std::string help) {
+  fields_.push_back(
+      {std::move(key), std::move(value), 0, 0, std::move(names), {}, std::move(help)});
+}
+
 void assign(ConfigField& field, const ConfigValue& value) {
   std::visit(Overloaded{
                  [&](bool* target) {
@@ -116,15 +126,39 @@ void assign(ConfigField& field, const ConfigValue& value) {
                  [&](int* target) { *target = whole_number_in_range(field, value); },
                  [&](double* target) { *target = number_in_range(field, value); },
                  [&](std::string* target) { *target = chosen(field, value); },
+                 [&](const ChosenValue& target) {
+                   const auto at = std::ranges::find(field.choices, chosen(field, value));
+                   target.choose(static_cast<std::size_t>(at - field.choices.begin()));
+                 },
              },
              field.value);
+}
+
+void check(const ConfigField& field) {
+  std::visit(Overloaded{
+                 [](const bool*) {},
+                 [&](const int* value) { number_in_range(field, std::int64_t{*value}); },
+                 [&](const double* value) { number_in_range(field, *value); },
+                 [&](const std::string* value) { chosen(field, *value); },
+                 [&](const ChosenValue& value) {
+                   if (!value.index()) refuse(field, allowed(field), std::string("another value"));
+                 },
+             },
+             field.value);
+}
+
+void ConfigSection::refuse_type() const {
+  throw ConfigError(
+      "section [" + name_ +
+      "] holds the settings of something else: take the section that the tracker's own "
+      "entry makes, find_tracker(name).config()");
 }
 
 void assign_text(ConfigField& field, const std::string& text) {
   ConfigValue value = text;
   if (std::holds_alternative<bool*>(field.value)) {
     if (text == "true" || text == "false") value = text == "true";
-  } else if (!std::holds_alternative<std::string*>(field.value)) {
+  } else if (is_number(field)) {
     if (const auto whole = parse<std::int64_t>(text)) {
       value = *whole;
     } else if (const auto real = parse<double>(text)) {
@@ -146,13 +180,17 @@ std::string to_toml(const ConfigField& field) {
                           return whole ? text + ".0" : text;
                         },
                         [](const std::string* s) { return quoted(*s); },
+                        [&](const ChosenValue& value) {
+                          check(field);
+                          return quoted(field.choices.at(*value.index()));
+                        },
                     },
                     field.value);
 }
 
 std::string allowed(const ConfigField& field) {
   if (std::holds_alternative<bool*>(field.value)) return "true or false";
-  if (!std::holds_alternative<std::string*>(field.value)) {
+  if (is_number(field)) {
     const std::string range = "[" + number_text(field.low) + ", " + number_text(field.high) + "]";
     return field.automatic ? range + " or auto" : range;
   }

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -10,13 +17,26 @@
 
 namespace glint {
 
+/// One of the values of a setting that is an enumeration, and its name in files.
+template <class Enum>
+struct Choice {
+  std::string name;
+  Enum value;
+};
+
+/// A setting that is an enumeration, by the index of its value among the field's choices.
+struct ChosenValue {
+  std::function<std::optional<std::size_t>()> index;  ///< nothing for a value that is no choice
+  std::function<void(std::size_t)> choose;
+};
+
 /// One setting of a config struct, by reference: where it lives, what it may be, what it means.
 /// TOML files, --set, --help, `glint config` and the docs all come from a config's list of these.
 struct ConfigField {
   std::string key;  ///< e.g. "birth_particles"
-  std::variant<bool*, int*, double*, std::string*> value;
+  std::variant<bool*, int*, double*, std::string*, ChosenValue> value;
   double low = 0, high = 0;          ///< numbers: allowed range, ends included
-  std::vector<std::string> choices;  ///< strings: allowed values; empty = any
+  std::vector<std::string> choices;  ///< strings and enumerations: allowed values; empty = any text
   std::string unit, help;            ///< unit may be empty
   bool automatic = false;            ///< numbers: the text "auto" stands for `low`
 };
@@ -31,12 +51,32 @@ class FieldList {
                   std::string help);
   void operator()(std::string key, std::string& value, std::vector<std::string> choices,
                   std::string help);
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(std::string key, Enum& value,
+                  std::initializer_list<Choice<std::type_identity_t<Enum>>> choices,
+                  std::string help) {
+    std::vector<std::string> names;
+    std::vector<Enum> values;
+    for (const auto& choice : choices) names.push_back(choice.name), values.push_back(choice.value);
+    const auto index = [&value, values]() -> std::optional<std::size_t> {
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] == value) return i;
+      }
+      return std::nullopt;
+    };
+    const auto choose = [&value, values](std::size_t i) { value = values.at(i); };
+    add_choices(std::move(key), {index, choose}, std::move(names), std::move(help));
+  }
   /// A number whose least value means that it is found from the data; written and read as "auto".
   void automatic(std::string key, double& value, double low, double high, std::string unit,
                  std::string help);
   std::vector<ConfigField>& fields() { return fields_; }
 
  private:
+  void add_choices(std::string key, ChosenValue value, std::vector<std::string> names,
+                   std::string help);
+
   std::vector<ConfigField> fields_;
 };
 
@@ -47,6 +87,17 @@ using ConfigValue = std::variant<bool, std::int64_t, double, std::string>;
 /// (1e5) for integers. Throws ConfigError ("birth_particles must be in [1, 1e7], got 0") for a
 /// wrong type, range or choice; the field keeps its value then.
 void assign(ConfigField& field, const ConfigValue& value);
+/// Throws ConfigError like assign() unless the field's present value is allowed.
+void check(const ConfigField& field);
+/// The config itself, checked: what constructors take their settings by, wherever these come from.
+/// Throws ConfigError for a value out of its range and for one that is no choice.
+template <class C>
+C valid(C config) {
+  FieldList list;
+  describe(list, config);
+  for (const ConfigField& field : list.fields()) check(field);
+  return config;
+}
 /// Reads `text` as the field's type and sets it (for --set).
 void assign_text(ConfigField& field, const std::string& text);
 /// The field's present value as TOML; reads back as exactly the same value.
@@ -66,19 +117,24 @@ class ConfigSection {
     s.name_ = std::move(name);
     s.fields_ = std::move(list.fields());
     s.owned_ = owned;
+    s.type_ = &typeid(C);
     return s;
   }
   const std::string& name() const { return name_; }
   std::vector<ConfigField>& fields() { return fields_; }
   const std::vector<ConfigField>& fields() const { return fields_; }
-  /// The struct; C must be the type it was made of.
+  /// The struct. Throws ConfigError if the section is of another type: settings of another tracker.
   template <class C>
   const C& as() const {
+    if (*type_ != typeid(C)) refuse_type();
     return *static_cast<const C*>(owned_.get());
   }
 
  private:
+  [[noreturn]] void refuse_type() const;
+
   std::string name_;
+  const std::type_info* type_ = nullptr;
   std::vector<ConfigField> fields_;
   std::shared_ptr<void> owned_;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "glint/engine/run_config.hpp"
 #include "glint/engine/state/fields.hpp"
 
 namespace glint {
@@ -37,8 +38,12 @@ class Engine::Results : public Sink {
  public:
   explicit Results(Engine& engine) : engine_(engine) {}
   void take(const ScanResult& scan) override {
-    EngineResult result{
-        scan.scan.frame, scan.scan.time, 0, {scan.reported.begin(), scan.reported.end()}};
+    EngineResult result{scan.scan.frame, scan.scan.time, 0, {}};
+    for (std::size_t i = 0; i < scan.reported.size(); ++i) {
+      for (const TrackPoint& point : scan.reported[i]) {
+        result.tracks.push_back({point, static_cast<int>(i)});
+      }
+    }
     {
       const std::scoped_lock lock(engine_.mutex_);
       result.latency =
@@ -61,12 +66,13 @@ class Engine::Results : public Sink {
 namespace {
 
 /// The pixels row by row without gaps, in memory of their own.
-SourceFrame copy_of(const RawPixels& pixels, double time) {
+SourceFrame copy_of(const RawPixels& given, double time) {
+  const RawPixels pixels = checked(given);
   SourceFrame frame;
   frame.time = time;
   std::visit(
       [&]<class T>(const T* data) {
-        const std::ptrdiff_t row = std::ptrdiff_t{pixels.width} * pixels.channels;
+        const std::ptrdiff_t row = pixels.row();
         auto copy = std::make_shared_for_overwrite<T[]>(
             static_cast<std::size_t>(row * std::ptrdiff_t{pixels.height}));
         for (int y = 0; y < pixels.height; ++y) {
@@ -81,6 +87,9 @@ SourceFrame copy_of(const RawPixels& pixels, double time) {
 }
 
 }  // namespace
+
+Engine::Engine(std::string_view trackers, const Settings& settings, EngineSettings of_engine)
+    : Engine(scheduler_of(trackers, settings), std::move(of_engine)) {}
 
 Engine::Engine(Scheduler scheduler, EngineSettings settings)
     : scheduler_(std::move(scheduler)),
@@ -111,7 +120,11 @@ void Engine::work() {
     }
   };
   attempt([&] {
-    while (wait_for_frames()) scheduler_.advance(*source_);
+    while (wait_for_frames()) {
+      scheduler_.advance(*source_);
+      const std::scoped_lock lock(mutex_);
+      holds_ = scheduler_.holds_frames();
+    }
   });
   attempt([&] { scheduler_.finish(); });  // of what was tracked before a failure as well
   const std::scoped_lock lock(mutex_);
@@ -121,24 +134,23 @@ void Engine::work() {
   room_.notify_all(), settled_or_idle_.notify_all();
 }
 
-/// False at the end.
+/// False at the end. Frames that are held for the background go on when somebody waits for them.
 bool Engine::wait_for_frames() {
   std::unique_lock lock(mutex_);
+  const auto hurried = [&] { return holds_ && hurries_ > 0; };
   idle_ = true;
   settled_or_idle_.notify_all();
-  frames_.wait(lock, [&] { return !waiting_.empty() || closed_; });
+  frames_.wait(lock, [&] { return !waiting_.empty() || closed_ || hurried(); });
   idle_ = false;
-  return !waiting_.empty() && !abandoned_;
+  if (abandoned_) scheduler_.drop_held();
+  if (hurried() && waiting_.empty()) scheduler_.release_primed();
+  return (!waiting_.empty() || hurried()) && !abandoned_;
 }
 
-bool Engine::push(const RawPixels& pixels, double time) {
-  if (pixels.width <= 0 || pixels.height <= 0 || pixels.channels <= 0) {
-    throw std::invalid_argument("a frame must have at least one pixel");
-  }
-  return push(copy_of(pixels, time));
-}
+bool Engine::push(const RawPixels& pixels, double time) { return push(copy_of(pixels, time)); }
 
 bool Engine::push(SourceFrame frame) {
+  if (!frame.points || frame.pixels.width > 0) frame.pixels = checked(frame.pixels);
   std::unique_lock lock(mutex_);
   const bool waits = settings_.when_full == EngineSettings::WhenFull::wait;
   room_.wait(lock, [&] { return ended_ || closed_ || (checkpoints_ == 0 && !(waits && full_)); });
@@ -162,19 +174,49 @@ bool Engine::push(SourceFrame frame) {
   return kept;
 }
 
-std::optional<EngineResult> Engine::poll(const std::function<bool(const EngineResult&)>& wants) {
-  const std::scoped_lock lock(mutex_);
-  if (results_.empty() || (wants && !wants(results_.front()))) return std::nullopt;
-  EngineResult result = std::move(results_.front());
+/// With mutex_ locked.
+std::optional<EngineResult> Engine::take_result() {
+  if (results_.empty()) return std::nullopt;
+  std::optional<EngineResult> result = std::move(results_.front());
   results_.pop_front();
   return result;
 }
 
+std::optional<EngineResult> Engine::poll(std::chrono::duration<double> timeout,
+                                         const std::function<bool(const EngineResult&)>& wants) {
+  std::unique_lock lock(mutex_);
+  constexpr std::chrono::duration<double> kLongest(1e9);  // a longer one overflows the clock
+  if (timeout.count() > 0) {
+    settled_or_idle_.wait_for(lock, std::min(timeout, kLongest),
+                              [&] { return !results_.empty() || ended_; });
+  }
+  if (results_.empty() && ended_) rethrow();
+  if (results_.empty() || (wants && !wants(results_.front()))) return std::nullopt;
+  return take_result();
+}
+
+bool Engine::more() const {
+  const std::scoped_lock lock(mutex_);
+  return !results_.empty() || !ended_;
+}
+
+/// Of the frames pushed by now; nothing once all of theirs were given.
+std::optional<EngineResult> Engine::next_result() {
+  std::unique_lock lock(mutex_);
+  ++hurries_;
+  frames_.notify_one();
+  settled_or_idle_.wait(lock, [&] { return !results_.empty() || ended_ || settled_ >= pushed_; });
+  --hurries_;
+  if (results_.empty()) rethrow();
+  return take_result();
+}
+
 std::string Engine::checkpoint() {
   std::unique_lock lock(mutex_);
-  ++checkpoints_;
-  settled_or_idle_.wait(lock, [&] { return ended_ || (idle_ && waiting_.empty()); });
-  --checkpoints_;
+  ++checkpoints_, ++hurries_;
+  frames_.notify_one();
+  settled_or_idle_.wait(lock, [&] { return ended_ || (idle_ && waiting_.empty() && !holds_); });
+  --checkpoints_, --hurries_;
   room_.notify_all();  // whoever is woken waits for the lock
   rethrow();
   if (closed_) throw std::logic_error("a finished engine has no checkpoint: take it before");
@@ -192,9 +234,12 @@ void Engine::take_state(ByteReader& from) {
   require_bytes(from.left() == 0, "it is too long");
   require_frame_number(pushed);
   require_bytes(dropped >= 0 && dropped <= pushed, "the counts of frames do not fit");
+  const auto trackers = static_cast<int>(scheduler_.logs().size());
   for (const EngineResult& result : results) {
-    require_bytes(result.tracks.size() == scheduler_.logs().size(),
-                  "a result is not of these trackers");
+    for (const Track& track : result.tracks) {
+      require_bytes(track.tracker >= 0 && track.tracker < trackers,
+                    "a result is not of these trackers");
+    }
   }
   pushed_ = settled_ = pushed, dropped_ = dropped, results_ = std::move(results);
 }
@@ -216,7 +261,10 @@ void Engine::restore(std::string_view checkpoint) {
 void Engine::drain() {
   std::unique_lock lock(mutex_);
   const std::int64_t goal = pushed_;
+  ++hurries_;
+  frames_.notify_one();
   settled_or_idle_.wait(lock, [&] { return ended_ || error_ || settled_ >= goal; });
+  --hurries_;
   rethrow();
 }
 

@@ -7,6 +7,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,15 +18,26 @@
 #include <vector>
 
 #include "glint/engine/scheduler.hpp"
+#include "glint/engine/settings.hpp"
 
 namespace glint {
 
-/// The tracks of a scan as they were known when it was done.
+/// A point of a track, and which tracker reported it.
+struct Track : TrackPoint {
+  int tracker = 0;  ///< index among the engine's trackers, in their order
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tuple_cat(TrackPoint::fields(s), std::tie(s.tracker));
+  }
+};
+
+/// The tracks of a frame as they were known when it was done.
 struct EngineResult {
-  std::int64_t frame = 0;  ///< number of the push(), from 0, dropped ones counted
-  double time = 0;         ///< [s]
-  double latency = 0;      ///< from push() to here [s]
-  std::vector<std::vector<TrackPoint>> tracks;  ///< one list a tracker, in their order, by track id
+  std::int64_t frame = 0;     ///< number of the push(), from 0, dropped ones counted
+  double time = 0;            ///< [s]
+  double latency = 0;         ///< from push() to here [s]
+  std::vector<Track> tracks;  ///< by tracker, then by track id
 
   template <class Self>
   static auto fields(Self& s) {
@@ -51,6 +63,12 @@ struct EngineSettings {
 /// were dropped. Every member may be called from any thread.
 class Engine {
  public:
+  /// `trackers`: a name, or several separated by spaces. `settings` are those of `glint config
+  /// TRACKER`, the last part of a key alone where that is enough, and "profile". Throws
+  /// ConfigError, with the nearest known key, for one that is unknown or has no effect, and for a
+  /// bad value; std::runtime_error if the device cannot be opened.
+  explicit Engine(std::string_view trackers, const Settings& settings = {},
+                  EngineSettings of_engine = {});
   /// `scheduler` has its trackers; sinks may be added to it before.
   explicit Engine(Scheduler scheduler, EngineSettings settings = {});
   /// Frames that still wait are not tracked; those at work are finished.
@@ -60,15 +78,25 @@ class Engine {
 
   /// Copies the frame's pixels and queues it; `time` in [s]. Returns whether all frames found room:
   /// false if one was dropped for it. Throws std::logic_error after finish(), std::invalid_argument
-  /// for pixels without size, and what ended the engine if something did.
+  /// as checked() does for pixels, and what ended the engine if something did.
   bool push(const RawPixels& pixels, double time);
   /// The same without a copy: `frame.owner` is let go of, on any thread, once the pixels were read.
   /// Frames that hold points, alone or beside pixels, come in here too.
   bool push(SourceFrame frame);
 
-  /// The next result, if there is one by now. One that `wants` (which must not call the engine)
-  /// says no to stays the next one.
-  std::optional<EngineResult> poll(const std::function<bool(const EngineResult&)>& wants = {});
+  /// The next result, waited for at most `timeout` [s]; nothing if there is none by then. One that
+  /// `wants` (which must not call the engine) says no to stays the next one. Throws what ended the
+  /// engine once the results before it were given.
+  std::optional<EngineResult> poll(std::chrono::duration<double> timeout = {},
+                                   const std::function<bool(const EngineResult&)>& wants = {});
+  /// Whether more results may come: false once the engine has finished, or ended by an error, and
+  /// every result was given.
+  bool more() const;
+  class ResultRange;
+  /// The results of all frames that were pushed by now, waited for: for (const auto& result :
+  /// engine.results()). After finish() it ends with the last frame's. Iterating throws what ended
+  /// the engine once the results before it were given. Nothing with on_result.
+  ResultRange results();
   /// Waits until every frame that was pushed is tracked. Throws what ended the engine.
   void drain();
   /// Drains, then lets the trackers say what they still hold; the logs are whole after that.
@@ -99,6 +127,8 @@ class Engine {
   class Queue;
   class Results;
 
+  std::optional<EngineResult> take_result();
+  std::optional<EngineResult> next_result();
   void work();
   void take_state(ByteReader& from);
   bool wait_for_frames();
@@ -120,11 +150,46 @@ class Engine {
   std::deque<EngineResult> results_;
   std::int64_t pushed_ = 0, dropped_ = 0, settled_ = 0;  // settled_: tracked or dropped
   int checkpoints_ = 0;                                  // that wait for the frames at work
-  bool full_ = false;  // until a quarter of the queue is free: one waking serves several frames
-  bool idle_ = false;  // nothing touches scheduler_ until a frame waits
+  int hurries_ = 0;     // who wait for all frames, those held for the background as well
+  bool holds_ = false;  // scheduler_ holds frames until its background is learned
+  bool full_ = false;   // until a quarter of the queue is free: one waking serves several frames
+  bool idle_ = false;   // nothing touches scheduler_ until a frame waits
   bool closed_ = false, abandoned_ = false, ended_ = false;
   std::exception_ptr error_;
   std::thread thread_;  // the last: it uses all of the above
 };
+
+/// What Engine::results() gives: a range to be gone through once.
+class Engine::ResultRange {
+ public:
+  class Iterator {
+   public:
+    using value_type = EngineResult;
+    using difference_type = std::ptrdiff_t;
+
+    explicit Iterator(Engine& engine) : engine_(&engine), now_(engine.next_result()) {}
+    const EngineResult& operator*() const { return *now_; }
+    const EngineResult* operator->() const { return &*now_; }
+    Iterator& operator++() {
+      now_ = engine_->next_result();
+      return *this;
+    }
+    void operator++(int) { ++*this; }
+    bool operator==(std::default_sentinel_t) const { return !now_; }
+
+   private:
+    Engine* engine_;
+    std::optional<EngineResult> now_;
+  };
+
+  explicit ResultRange(Engine& engine) : engine_(engine) {}
+  Iterator begin() const { return Iterator(engine_); }
+  std::default_sentinel_t end() const { return {}; }
+
+ private:
+  Engine& engine_;
+};
+
+inline Engine::ResultRange Engine::results() { return ResultRange(*this); }
 
 }  // namespace glint

@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_pipeline.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <deque>
@@ -15,6 +16,11 @@
 
 namespace glint {
 namespace {
+
+class NoMoreFrames : public Source {
+ public:
+  std::optional<SourceFrame> next() override { return std::nullopt; }
+};
 
 /// A tracker, its log and its stage.
 struct TrackerStage {
@@ -41,6 +47,9 @@ struct Scheduler::State {
   State(const Device& on, FramePreparer with, const PointsConfig& points)
       : device(on), preparer(std::move(with)), finder(points, on) {}
 
+  void read_next(Source& source, std::optional<SourceFrame>& frame);
+  void learn_held();
+  void release() { primed = std::min(primed, held.size()); }
   Token* read(Source& source, const std::stop_token& stop);
   void prepare(Token& token);
   void track(std::size_t i, Token& token);
@@ -63,17 +72,47 @@ struct Scheduler::State {
   std::array<Token, kFramesInFlight> tokens;
   bool started = false, finished = false;
   std::int64_t read_count = 0, next_frame = 0, delivered = 0, kept = 0;
+  std::deque<SourceFrame> held;  // until the background is learned
+  std::size_t primed = 0;        // frames that it is learned from
   std::atomic<bool> stopping = false;
   std::exception_ptr error;  // of the earliest frame that failed
   std::string settings;
 };
+
+/// The source's next frame, or the first of those that were held; nothing while more are to be
+/// held.
+void Scheduler::State::read_next(Source& source, std::optional<SourceFrame>& frame) {
+  while (held.size() < primed) {
+    frame = source.next();
+    if (!frame) return;
+    held.push_back(std::move(*frame));
+    if (held.back().pixels.width == 0) release();  // points have no background
+  }
+  if (primed > 0) learn_held();
+  if (held.empty()) {
+    frame = source.next();
+  } else {
+    frame.emplace(std::move(held.front()));
+    held.pop_front();
+  }
+}
+
+/// Stops at a frame that is damaged: the run that comes to it says so.
+void Scheduler::State::learn_held() {
+  primed = 0;
+  try {
+    for (const SourceFrame& frame : held) preparer.learn(frame.pixels);
+  } catch (const std::exception&) {
+    return;
+  }
+}
 
 Token* Scheduler::State::read(Source& source, const std::stop_token& stop) {
   if (stopping || stop.stop_requested()) return nullptr;
   Token& token = tokens[static_cast<std::size_t>(read_count) % kFramesInFlight];
   token.failed = false;
   token.error = nullptr;
-  reading.pass(token, [&] { token.source = source.next(); });
+  reading.pass(token, [&] { read_next(source, token.source); });
   if (token.source) next_frame += token.source->skipped;
   token.frame = next_frame;
   if (!token.failed && !token.source) return nullptr;
@@ -192,9 +231,21 @@ void Scheduler::find_points() { state_->finds_points = true; }
 std::int64_t Scheduler::run(Source& source, const std::stop_token& stop) {
   if (state_->started) throw std::logic_error("a Scheduler runs once: make another");
   state_->advance(source, stop);
+  if (stop.stop_requested()) drop_held();
   finish();
   return state_->delivered;
 }
+
+void Scheduler::prime(std::int64_t frames) {
+  if (state_->started) throw std::logic_error("prime() before the first frame");
+  state_->primed = static_cast<std::size_t>(std::max<std::int64_t>(frames, 0));
+}
+
+bool Scheduler::holds_frames() const { return !state_->held.empty(); }
+
+void Scheduler::drop_held() { state_->held.clear(); }
+
+void Scheduler::release_primed() { state_->release(); }
 
 void Scheduler::advance(Source& source, const std::stop_token& stop) {
   if (state_->finished) throw std::logic_error("a Scheduler ends once: make another");
@@ -204,6 +255,11 @@ void Scheduler::advance(Source& source, const std::stop_token& stop) {
 
 void Scheduler::finish() {
   if (std::exchange(state_->finished, true)) return;
+  if (holds_frames()) {
+    release_primed();
+    NoMoreFrames end;
+    state_->advance(end, {});
+  }
   state_->finish();
   if (state_->error) std::rethrow_exception(state_->error);
 }
@@ -227,6 +283,9 @@ void Scheduler::put_state(ByteWriter& to) const {
   const State& s = *state_;
   if (s.error) std::rethrow_exception(s.error);
   if (s.finished) throw std::logic_error("a finished run has no checkpoint: take it before");
+  if (!s.held.empty()) {
+    throw std::logic_error("frames are held by prime(): release_primed() and advance() first");
+  }
   put_bytes(to, s.next_frame), put_bytes(to, s.delivered);
   s.preparer.save(to);
   for (const TrackerStage& entry : s.trackers) entry.tracker->save(to), put_bytes(to, entry.log);
@@ -237,6 +296,7 @@ void Scheduler::take_state(ByteReader& from, After after) {
   s.started = s.finished = true;  // if this fails: half a state is no use
   take_bytes(from, s.next_frame), take_bytes(from, s.delivered);
   require_frame_number(s.next_frame), require_frame_number(s.delivered);
+  if (s.next_frame > 0) s.primed = 0;  // the state holds what was learned
   s.preparer.restore(from);
   for (TrackerStage& entry : s.trackers) entry.tracker->restore(from), take_bytes(from, entry.log);
   require_bytes(after == After::more || from.left() == 0, "it is too long");

@@ -11,51 +11,16 @@
 
 #include "glint/engine/frames/frame_preparer.hpp"
 #include "glint/engine/frames/point_finder.hpp"
+#include "glint/engine/settings.hpp"
+#include "glint/engine/source.hpp"
 #include "glint/engine/state/checkpoint.hpp"
 #include "glint/engine/tracks/tracker.hpp"
 
 namespace glint {
 
-/// A raw frame that owns its pixels, the points of a scan, or both.
-struct SourceFrame {
-  RawPixels pixels;                   ///< points into `owner`; without width if there is no frame
-  std::shared_ptr<const void> owner;  ///< keeps the pixels alive; let go of on any thread
-  double time = 0;                    ///< [s]
-  /// Given by sources that know the points; without them they are looked for in the pixels.
-  std::optional<std::vector<Point>> points;
-  double sensor_x = 0, sensor_y = 0;  ///< where that which saw the points stands [px]
-  bool looked = true;  ///< false: it did not look; trackers of points alone pass the frame over
-  std::int64_t skipped = 0;  ///< frames lost since the one before
-};
-
-/// Where frames come from.
-class Source {
- public:
-  virtual ~Source() = default;
-  /// The next frame, or nothing at the end. Throws std::runtime_error with file and remedy.
-  virtual std::optional<SourceFrame> next() = 0;
-  virtual std::optional<std::int64_t> frame_count() const { return std::nullopt; }
-  virtual double frame_rate() const { return 1; }  ///< [1/s]
-};
-
 /// Lets the background learn the source's next frames, at most `frames`, before any is prepared.
 /// Stops at a frame that is damaged: the run that comes to it says so.
 void prime_background(FramePreparer& preparer, Source& source, int frames);
-
-/// What a finished scan looks like to sinks (writers, progress, overlay). Trackers may already work
-/// on later scans, so the log itself is not to be seen here, but a copy of what each tracker
-/// reported of this scan when it had it: by track id, without later revisions.
-struct ScanResult {
-  const Scan& scan;
-  std::span<const std::vector<TrackPoint>> reported;  ///< one a tracker, in their order
-};
-
-/// Where finished scans go, in order.
-class Sink {
- public:
-  virtual ~Sink() = default;
-  virtual void take(const ScanResult& result) = 0;
-};
 
 /// What a stage of the pipeline has cost so far.
 struct StageTime {
@@ -72,6 +37,8 @@ class Scheduler {
  public:
   static constexpr std::size_t kFramesInFlight = 4;
 
+  /// Trackers by name, with settings, as Engine takes them.
+  explicit Scheduler(std::string_view trackers, const Settings& settings = {});
   /// `points`: how points are found for trackers that feed on them.
   Scheduler(const Device& device, FramePreparer preparer, const PointsConfig& points = {});
   ~Scheduler();
@@ -82,12 +49,14 @@ class Scheduler {
   void add(Sink& sink);
   /// Scans get their points even if no tracker feeds on them.
   void find_points();
-  /// Runs to the end of the source, or until `stop` is requested: then no more frames are read and
-  /// those in flight are finished. Calls every tracker's finish() but that of one which threw.
-  /// Returns the number of frames delivered. Runs once; throws std::logic_error if called again.
+  /// Runs to the end of the source, or until `stop` is requested: then no more frames are read,
+  /// those in flight are finished, and those that prime() holds are dropped. Calls every tracker's
+  /// finish() but that of one which threw. Returns the number of frames delivered. Runs once;
+  /// throws std::logic_error if called again.
   std::int64_t run(Source& source, const std::stop_token& stop = {});
   /// The two parts of run(), for a source that may have more later: to the end of what it has now,
-  /// as often as need be; then finish(), once. Each throws what any stage has thrown so far.
+  /// as often as need be; then finish(), once, which tracks what prime() still holds. Each throws
+  /// what any stage has thrown so far.
   void advance(Source& source, const std::stop_token& stop = {});
   void finish();
 
@@ -95,6 +64,14 @@ class Scheduler {
   /// Logs hold the last `frames` frames alone, for streams without an end; late corrections of
   /// earlier ones are lost. 0, the default: all.
   void keep(std::int64_t frames);
+  /// The background is learned from the first `frames` frames before the first is tracked: they are
+  /// held in memory until so many came, or the source's end, or release_primed(). Call it before
+  /// the first frame.
+  void prime(std::int64_t frames);
+  /// Frames are held by prime() that could go on.
+  bool holds_frames() const;
+  /// The next advance() learns from the frames that are held by now, and holds no more.
+  void release_primed();
   /// Room for that many points in every log, so that reporting them allocates nothing.
   void reserve(std::size_t points);
   const Tracker& tracker(std::size_t i) const;
@@ -116,6 +93,7 @@ class Scheduler {
 
  private:
   friend class Engine;
+  void drop_held();
   void put_state(ByteWriter& to) const;
   enum class After { nothing, more };  ///< what may follow the state
   void take_state(ByteReader& from, After after);

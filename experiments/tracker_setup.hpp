@@ -3,19 +3,13 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "glint/engine/config.hpp"
+#include "glint/engine/settings.hpp"
 #include "glint/engine/tracks/tracker.hpp"
 #include "glint/kernels/core/device.hpp"
 
 namespace glint {
-
-struct Setting {
-  std::string key;
-  ConfigValue value;
-};
-using Settings = std::vector<Setting>;
 
 /// `base` with `more` after it; of two settings of one key the later holds.
 Settings operator+(Settings base, const Settings& more);

@@ -16,8 +16,8 @@
 #include "glint/bench/harness.hpp"
 #include "glint/engine/engine.hpp"
 #include "glint/frontends/capi/glint.h"
-#include "glint/frontends/config/run_config.hpp"
-#include "glint/frontends/config/settings.hpp"
+#include "glint/engine/run_config.hpp"
+#include "glint/engine/settings.hpp"
 #include "glint/frontends/config/toml.hpp"
 
 namespace glint::bench {

@@ -54,11 +54,12 @@ class NoBackground : public Background {
 }  // namespace
 
 std::unique_ptr<Background> make_background(const FramesConfig& config, const Device& device) {
-  if (config.background == "temporal") return std::make_unique<TemporalBackground>(config, device);
-  if (config.background == "registered") {
+  if (config.background == BackgroundKind::temporal)
+    return std::make_unique<TemporalBackground>(config, device);
+  if (config.background == BackgroundKind::registered) {
     return std::make_unique<RegisteredBackground>(config, device);
   }
-  if (config.background == "none") return std::make_unique<NoBackground>(device);
+  if (config.background == BackgroundKind::none) return std::make_unique<NoBackground>(device);
   const int spacing = std::clamp((config.spatial_window - 1) / 4, 1, SpatialMedian::kMaxSpacing);
   return std::make_unique<SpatialBackground>(spacing, device);
 }

@@ -20,11 +20,6 @@ namespace {
 
 constexpr int kNoiseSamples = 4096;  // of the noise map, for its median
 
-Polarity polarity_of(const std::string& name) {
-  if (name == "dark") return Polarity::dark;
-  return name == "both" ? Polarity::both : Polarity::bright;
-}
-
 /// Least sigma in grey levels: compressed video freezes blocks, sensors repeat values, and a noise
 /// of 0 would make a target of every later change. Key frames of a codec leave residues of 3
 /// levels.
@@ -43,19 +38,15 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-void check(const RawPixels& raw) {
-  if (raw.width <= 0 || raw.height <= 0) {
-    throw std::invalid_argument("a frame must have at least one pixel");
-  }
+/// As checked() does, and within what kernels take.
+RawPixels fitting(const RawPixels& given) {
+  const RawPixels raw = checked(given);
   if (raw.width > kMaxSide || raw.height > kMaxSide) {
     throw std::invalid_argument("a frame may have at most " + std::to_string(kMaxSide) +
                                 " px a side, got " + size_text(raw.width, raw.height) +
                                 ": crop it, or run its parts one by one");
   }
-  if (raw.channels != 1 && raw.channels != 3 && raw.channels != 4) {
-    throw std::invalid_argument("a frame must have 1, 3 or 4 channels, got " +
-                                std::to_string(raw.channels));
-  }
+  return raw;
 }
 
 }  // namespace
@@ -107,7 +98,6 @@ struct FramePreparer::State {
 
 /// Sends the frame ahead: grey pixels and the background's samples are made of it.
 Resident FramePreparer::State::stage(const RawPixels& raw) const {
-  check(raw);
   return std::visit(
       [&]<class T>(const T* data) {
         return device.stage(
@@ -207,7 +197,7 @@ void FramePreparer::State::whiten(FrameView grey, double sigma, ImageView<float>
   args.ring_outer = config.ring ? config.ring_outer / 2 : 0;
   args.ring_inner = config.ring_inner / 2;
   args.ring_clip = config.ring_clip;
-  args.polarity = polarity_of(config.polarity);
+  args.polarity = config.polarity;
   args.clip_low = config.clip_low;
   args.clip_high = config.clip_high;
   args.whitened = whitened;
@@ -230,7 +220,7 @@ void FramePreparer::State::fill_masked(ImageView<float> grey) const {
 }
 
 FramePreparer::FramePreparer(const FramesConfig& config, const Device& device)
-    : state_(std::make_unique<State>(config, device)) {
+    : state_(std::make_unique<State>(valid(config), device)) {
   if (config.ring && config.ring_inner >= config.ring_outer) {
     throw ConfigError("frames.ring_inner must be below frames.ring_outer (" +
                       std::to_string(config.ring_outer) + "), got " +
@@ -246,14 +236,16 @@ void FramePreparer::set_mask(Image<std::uint8_t> ignored) {
   state_->model->rewrite();
 }
 
-void FramePreparer::learn(const RawPixels& raw) {
+void FramePreparer::learn(const RawPixels& given) {
+  const RawPixels raw = fitting(given);
   const Resident sent = state_->stage(raw);
   const auto grey = state_->take_grey(raw).image;
   state_->model->learn(state_->input_of(raw, grey->view()));
 }
 
-Scan FramePreparer::prepare(const RawPixels& raw, std::int64_t frame, double time) {
+Scan FramePreparer::prepare(const RawPixels& given, std::int64_t frame, double time) {
   State& s = *state_;
+  const RawPixels raw = fitting(given);
   const Resident sent = s.stage(raw);
   const auto [grey, masked] = s.take_grey(raw);
   const BackgroundInput input = s.input_of(raw, grey->view());

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/engine/frames/frame_preparer.hpp"
+#include "glint/engine/frames/frames_config.hpp"
+
+#include "glint/kernels/prepare_frame/prepare_frame.hpp"
 
 namespace glint {
 
 void describe(FieldList& list, FramesConfig& c) {
-  list("polarity", c.polarity, {"bright", "dark", "both"},
+  list("polarity", c.polarity,
+       {{"bright", Polarity::bright}, {"dark", Polarity::dark}, {"both", Polarity::both}},
        "targets are brighter than the background, darker, or either");
-  list("background", c.background, {"temporal", "registered", "spatial", "none"},
+  list("background", c.background,
+       {{"temporal", BackgroundKind::temporal},
+        {"registered", BackgroundKind::registered},
+        {"spatial", BackgroundKind::spatial},
+        {"none", BackgroundKind::none}},
        "median over past frames, the same after registration (moving camera), median over a "
        "window, or frames that are whitened already");
   list("reciprocal", c.reciprocal, "work on 255 / I, which makes dark targets bright");
@@ -18,7 +25,9 @@ void describe(FieldList& list, FramesConfig& c) {
        "from one sample of the temporal median to the next, once the span is reached");
   list("background_prime", c.background_prime, 0, 100000, "frames",
        "frames at the input's start that the background is learned from before the first is "
-       "tracked: targets that hardly move there then stand out from it; files only, 0 = none");
+       "tracked: targets that hardly move there then stand out from it; they are held in memory "
+       "where "
+       "frames are pushed; 0 = none");
   list("registered_frames", c.registered_frames, 1, static_cast<int>(kMaxStack), "",
        "samples of the registered median");
   list("registered_stride", c.registered_stride, 1, 1000, "frames",

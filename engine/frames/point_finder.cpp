@@ -6,7 +6,9 @@
 namespace glint {
 
 void describe(FieldList& list, PointsConfig& c) {
-  list("mode", c.mode, {"local_maximum", "unit_5x5"},
+  list("mode", c.mode,
+       {{"local_maximum", FindPoints::Mode::local_maximum},
+        {"unit_5x5", FindPoints::Mode::unit_5x5}},
        "maxima of the matched filter, or blocks of 5x5 pixels that are bright on the mean");
   list("psf_sigma", c.psf_sigma, 0.1, 2.6, "px", "point spread of the matched filter");
   list("threshold", c.threshold, -100, 1000, "sigma", "least value of the matched filter");
@@ -16,10 +18,10 @@ void describe(FieldList& list, PointsConfig& c) {
 }
 
 PointFinder::PointFinder(const PointsConfig& config, const Device& device)
-    : config_(config), device_(device), filter_(config.psf_sigma, device) {}
+    : config_(valid(config)), device_(device), filter_(config.psf_sigma, device) {}
 
 void PointFinder::find(const Scan& scan, std::vector<Point>& points) {
-  if (config_.mode == "local_maximum") {
+  if (config_.mode == FindPoints::Mode::local_maximum) {
     filter_.points(scan.whitened.for_kernels(), config_.threshold, config_.radius, points);
     return;
   }

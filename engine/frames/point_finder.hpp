@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <string>
 #include <vector>
 
 #include "glint/engine/config.hpp"
@@ -12,11 +11,11 @@ namespace glint {
 
 /// How points are found in single frames; the file section [points].
 struct PointsConfig {
-  std::string mode = "local_maximum";  ///< local_maximum, unit_5x5
-  double psf_sigma = 1.0;              ///< [px] of the matched filter
-  double threshold = 2.0;              ///< [sigma] of the matched filter
-  int radius = 4;                      ///< [px]; a smaller one lets a target give several points
-  double unit_threshold = 1.1;         ///< [mean intensity of the frame]
+  FindPoints::Mode mode = FindPoints::Mode::local_maximum;
+  double psf_sigma = 1.0;       ///< [px] of the matched filter
+  double threshold = 2.0;       ///< [sigma] of the matched filter
+  int radius = 4;               ///< [px]; a smaller one lets a target give several points
+  double unit_threshold = 1.1;  ///< [mean intensity of the frame]
 };
 void describe(FieldList& list, PointsConfig& config);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -18,12 +19,12 @@
 #include <vector>
 
 #include "glint/engine/engine.hpp"
+#include "glint/engine/profiles.hpp"
+#include "glint/engine/run_config.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/capi/guard.hpp"
 #include "glint/frontends/capi/pushed_frame.hpp"
 #include "glint/frontends/capi/track_row.hpp"
-#include "glint/frontends/config/profiles.hpp"
-#include "glint/frontends/config/run_config.hpp"
 #include "glint/frontends/config/toml.hpp"
 #include "glint/frontends/usage_error.hpp"
 
@@ -48,7 +49,7 @@ Scheduler scheduler_of(const glint_options& options) {
     apply_set(std::string("run.tracker=") + options.tracker, sections);
   }
   if (trackers_of(section_named(sections, "run").as<RunConfig>()).empty()) {
-    throw UsageError("no tracker is named; set options.tracker, for example to \"mm-phd\"");
+    throw ConfigError("no tracker is named; set options.tracker, for example to \"mm-phd\"");
   }
   return pushed_frames_scheduler(sections);
 }
@@ -87,19 +88,19 @@ std::unique_ptr<glint_engine> created(const glint_options* options) {
   }
 }
 
-glint_status poll(glint_engine& handle, glint_result& given, glint_track* tracks,
+/// Waits at most `timeout` [s].
+glint_status poll(glint_engine& handle, double timeout, glint_result& given, glint_track* tracks,
                   std::size_t capacity) {
   glint_result result = taken(&given, GLINT_RESULT_INIT, "");
   bool any = false;
   const auto fits = [&](const EngineResult& next) {
     any = true;
     result.frame = next.frame, result.time = next.time;
-    result.latency = next.latency, result.tracks = 0;
-    for (const auto& points : next.tracks) result.tracks += points.size();
+    result.latency = next.latency, result.tracks = next.tracks.size();
     return result.tracks <= capacity && (tracks != nullptr || result.tracks == 0);
   };
-  const std::optional<EngineResult> taken_out = handle.engine.poll(fits);
-  if (!any) return GLINT_NOTHING;
+  const auto taken_out = handle.engine.poll(std::chrono::duration<double>(timeout), fits);
+  if (!any) return handle.engine.more() ? GLINT_NOTHING : GLINT_END;
   std::memcpy(&given, &result, std::min(given.struct_size, sizeof(result)));
   if (result.tracks > capacity) {
     last_error = "the frame has " + std::to_string(result.tracks) +
@@ -109,8 +110,8 @@ glint_status poll(glint_engine& handle, glint_result& given, glint_track* tracks
   }
   require(tracks != nullptr || result.tracks == 0, "tracks is NULL");
   Tracks out(tracks, result.track_size);
-  for (std::size_t i = 0; i < taken_out->tracks.size(); ++i) {
-    for (const TrackPoint& p : taken_out->tracks[i]) out.put(p, i);
+  for (const Track& track : taken_out->tracks) {
+    out.put(track, static_cast<std::size_t>(track.tracker));
   }
   return GLINT_OK;
 }
@@ -203,7 +204,17 @@ glint_status glint_poll(glint_engine* engine, glint_result* result, glint_track*
   return guarded([&] {
     require(engine != nullptr, "engine is NULL");
     require(result != nullptr, "result is NULL");
-    return poll(*engine, *result, tracks, capacity);
+    const glint_status status = poll(*engine, 0, *result, tracks, capacity);
+    return status == GLINT_END ? GLINT_NOTHING : status;
+  });
+}
+
+glint_status glint_next(glint_engine* engine, double timeout, glint_result* result,
+                        glint_track* tracks, size_t capacity) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    require(result != nullptr, "result is NULL");
+    return poll(*engine, timeout, *result, tracks, capacity);
   });
 }
 

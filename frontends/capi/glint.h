@@ -9,7 +9,9 @@
  *     for each frame:
  *       glint_push(engine, &frame);
  *       while (glint_poll(engine, &result, tracks, 100) == GLINT_OK) ...;
- *     glint_finish(engine), glint_poll(...) the rest, glint_destroy(engine);
+ *     glint_finish(engine);
+ *     while (glint_poll(engine, &result, tracks, 100) == GLINT_OK) ...;   the last frames
+ *     glint_destroy(engine);
  *
  * Frames are tracked on the engine's own threads. Every function but glint_destroy() may be called
  * from any thread. Structs that are passed in begin with their size, so that a program built with
@@ -40,7 +42,8 @@ typedef enum glint_status {
   GLINT_BAD_CONFIG = 5,   /* an unknown key, tracker or profile, a value out of range */
   GLINT_BAD_STATE = 6,    /* a frame or a checkpoint after glint_finish() */
   GLINT_FAILED = 7,       /* tracking failed: the engine has ended */
-  GLINT_BAD_CHECKPOINT = 8 /* damaged, or of another version, config or kind of device */
+  GLINT_BAD_CHECKPOINT = 8, /* damaged, or of another version, config or kind of device */
+  GLINT_END = 9             /* glint_next(): every frame's result was given */
 } glint_status;
 
 /* Of the library, for example "0.1.0". */
@@ -142,6 +145,10 @@ typedef struct glint_result {
  * stays to be asked for again. */
 GLINT_API glint_status glint_poll(glint_engine *engine, glint_result *result, glint_track *tracks,
                                   size_t capacity);
+/* The same, waited for at most `timeout` [s]; GLINT_END once glint_finish() was called and the last
+ * frame's result was given. */
+GLINT_API glint_status glint_next(glint_engine *engine, double timeout, glint_result *result,
+                                  glint_track *tracks, size_t capacity);
 /* Waits until every frame that was pushed is done. */
 GLINT_API glint_status glint_drain(glint_engine *engine);
 /* Drains, and lets the trackers say what they still hold. No frame can be pushed after that. */

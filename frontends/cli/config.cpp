@@ -7,8 +7,8 @@
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/config_file.hpp"
-#include "glint/frontends/config/profiles.hpp"
-#include "glint/frontends/config/run_config.hpp"
+#include "glint/engine/profiles.hpp"
+#include "glint/engine/run_config.hpp"
 #include "glint/frontends/config/toml.hpp"
 
 namespace glint::cli {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "glint/frontends/config/profiles.hpp"
+#include "glint/engine/profiles.hpp"
 #include "glint/frontends/config/toml.hpp"
 #include "glint/frontends/files/track_file.hpp"
 #include "glint/frontends/usage_error.hpp"

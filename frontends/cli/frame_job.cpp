@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "glint/engine/profiles.hpp"
 #include "glint/engine/scenario/scenario.hpp"
+#include "glint/engine/settings.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/cli/config_file.hpp"
-#include "glint/frontends/config/profiles.hpp"
-#include "glint/frontends/config/settings.hpp"
 #include "glint/frontends/files/noisy_source.hpp"
 #include "glint/frontends/files/open_source.hpp"
 #include "glint/frontends/files/points_source.hpp"
@@ -105,17 +105,18 @@ std::unique_ptr<Source> open_input(const FrameJob& job, const Warn& on_warning) 
   return std::make_unique<NoisySource>(std::move(source), run.add_noise, seed, job.device);
 }
 
+int frames_ahead(const FrameJob& job) {
+  return job.config<FramesConfig>("frames").background_prime;
+}
+
+bool is_read_once(const FrameJob& job) { return job.inputs.front() == "-"; }
+
 FramePreparer make_preparer(const FrameJob& job) {
   FramePreparer preparer(job.config<FramesConfig>("frames"), job.device);
   const std::string& mask = job.run().mask;
   if (!mask.empty()) preparer.set_mask(read_mask(mask, job.device));
-  const int ahead = job.config<FramesConfig>("frames").background_prime;
-  if (ahead == 0) return preparer;
-  if (job.inputs.front() == "-") {
-    throw UsageError(
-        "frames.background_prime reads the input twice, and standard input can be "
-        "read once; leave it out, or give a file");
-  }
+  const int ahead = frames_ahead(job);
+  if (ahead == 0 || is_read_once(job)) return preparer;
   // What there is to warn of, the run itself says.
   prime_background(preparer, *open_input(job, [](const std::string&) {}), ahead);
   return preparer;
@@ -191,8 +192,10 @@ std::unique_ptr<Source> open_frames(const FrameJob& job) {
 
 Scheduler make_scheduler(const FrameJob& job) {
   const auto points = std::ranges::find(job.sections, "points", &ConfigSection::name);
-  return {job.device, make_preparer(job),
-          points == job.sections.end() ? PointsConfig{} : points->as<PointsConfig>()};
+  Scheduler scheduler(job.device, make_preparer(job),
+                      points == job.sections.end() ? PointsConfig{} : points->as<PointsConfig>());
+  if (is_read_once(job)) scheduler.prime(frames_ahead(job));
+  return scheduler;
 }
 
 }  // namespace glint::cli

@@ -8,7 +8,7 @@
 
 #include "glint/engine/scheduler.hpp"
 #include "glint/frontends/cli/commands.hpp"
-#include "glint/frontends/config/run_config.hpp"
+#include "glint/engine/run_config.hpp"
 
 namespace glint::cli {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "glint/engine/config.hpp"
-#include "glint/frontends/config/settings.hpp"
+#include "glint/engine/settings.hpp"
 
 namespace glint {
 

@@ -7,8 +7,8 @@
 
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/experiments/monte_carlo.hpp"
-#include "glint/frontends/config/profiles.hpp"
-#include "glint/frontends/config/settings.hpp"
+#include "glint/engine/profiles.hpp"
+#include "glint/engine/settings.hpp"
 #include "glint/frontends/experiments/clip_run.hpp"
 #include "glint/frontends/experiments/helicopter.hpp"
 #include "glint/frontends/experiments/recorded.hpp"

@@ -45,10 +45,10 @@ void draw_ring(const Picture<T>& picture, const TrackPoint& point, int radius, T
 }
 
 template <class T>
-void draw_all(GstVideoFrame& frame, std::span<const TrackPoint> points) {
+void draw_all(GstVideoFrame& frame, std::span<const Track> tracks) {
   const Picture<T> picture{frame};
   const auto [dark, bright] = darkest_and_brightest(picture);
-  for (const TrackPoint& point : points) {
+  for (const Track& point : tracks) {
     if (point.status != TrackStatus::confirmed) continue;
     draw_ring(picture, point, kBoxRadius + 1, bright);
     draw_ring(picture, point, kBoxRadius + 2, dark);
@@ -68,11 +68,11 @@ std::optional<Box> box_around(const TrackPoint& point, int radius, int width, in
              std::min(height, y + radius + 1)};
 }
 
-void draw_boxes(GstVideoFrame& picture, std::span<const TrackPoint> points) {
+void draw_boxes(GstVideoFrame& picture, std::span<const Track> tracks) {
   if (GST_VIDEO_FRAME_FORMAT(&picture) == GST_VIDEO_FORMAT_GRAY8) {
-    draw_all<std::uint8_t>(picture, points);
+    draw_all<std::uint8_t>(picture, tracks);
   } else {
-    draw_all<std::uint16_t>(picture, points);
+    draw_all<std::uint16_t>(picture, tracks);
   }
 }
 

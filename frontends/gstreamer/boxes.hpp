@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "glint/engine/tracks/track_log.hpp"
+#include "glint/engine/engine.hpp"
 
 namespace glint::gstreamer {
 
@@ -20,7 +20,7 @@ std::optional<Box> box_around(const TrackPoint& point, int radius, int width, in
 
 /// Draws the outline of a box around each confirmed track into the grey picture: a ring of the
 /// picture's brightest level in one of its darkest, so that it shows on any ground.
-void draw_boxes(GstVideoFrame& picture, std::span<const TrackPoint> points);
+void draw_boxes(GstVideoFrame& picture, std::span<const Track> tracks);
 
 /// Half a box's side [px], without the middle: the box is 7 px wide, +-3 sigma of the default point
 /// spread.

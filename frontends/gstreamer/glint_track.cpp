@@ -193,7 +193,7 @@ EngineResult tracks_of(Stream& stream, GstBuffer* buffer) {
 void draw(const Stream& stream, GstBuffer* buffer, const EngineResult& result) {
   constexpr int kReadWrite = GST_MAP_READ | GST_MAP_WRITE;
   Mapped picture(buffer, stream.format(), static_cast<GstMapFlags>(kReadWrite));
-  for (const auto& points : result.tracks) draw_boxes(picture.frame(), points);
+  draw_boxes(picture.frame(), result.tracks);
 }
 
 void post(GstBaseTransform* transform, GstStructure* structure) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/frontends/gstreamer/settings.hpp"
 
-#include <algorithm>
 #include <span>
 #include <sstream>
 
-#include "glint/frontends/config/profiles.hpp"
-#include "glint/frontends/config/run_config.hpp"
+#include "glint/engine/frames/frames_config.hpp"
+#include "glint/engine/profiles.hpp"
+#include "glint/engine/run_config.hpp"
 #include "glint/frontends/config/toml.hpp"
 
 namespace glint::gstreamer {
@@ -19,23 +19,14 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-bool is_full_key(const std::string& key, std::span<const ConfigSection> sections) {
-  return std::ranges::any_of(sections, [&](const ConfigSection& s) {
-    return std::ranges::any_of(s.fields(),
-                               [&](const ConfigField& f) { return s.name() + '.' + f.key == key; });
-  });
-}
-
 /// Short keys are looked for among the settings that the run reads.
 void set_all(const std::string& assignments, std::span<ConfigSection> all) {
-  const RunConfig run = section_named(all, "run").as<RunConfig>();
-  std::vector<ConfigSection> used = used_sections(all, trackers_of(run));
   std::istringstream list(assignments);
   for (std::string item; std::getline(list, item, ';');) {
     item = trimmed(item);
     if (item.empty()) continue;
-    const bool full = is_full_key(trimmed(item.substr(0, item.find('='))), all);
-    apply_set(item, full ? all : std::span(used));
+    std::vector<ConfigSection> read = sections_with(trimmed(item.substr(0, item.find('='))), all);
+    apply_set(item, read);
   }
 }
 
@@ -52,6 +43,11 @@ std::vector<ConfigSection> sections_of(const Properties& properties) {
     apply_value("run.tracker", std::string("mm-phd"), all);
   }
   set_all(properties.set, all);
+  if (section_named(all, "frames").as<FramesConfig>().background_prime > 0) {
+    throw ConfigError(
+        "frames.background_prime holds frames back, and here each picture leaves with its own "
+        "tracks; leave it out, or track the file by `glint track`");
+  }
   return all;
 }
 

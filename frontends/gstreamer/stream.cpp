@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "glint/frontends/config/run_config.hpp"
+#include "glint/engine/run_config.hpp"
 #include "glint/frontends/usage_error.hpp"
 
 namespace glint::gstreamer {

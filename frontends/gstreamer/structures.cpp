@@ -20,6 +20,10 @@ GstStructure* track_structure(const TrackPoint& p, const std::string& tracker) {
                            G_TYPE_DOUBLE, p.cov_xy, "var-y", G_TYPE_DOUBLE, p.var_y, nullptr);
 }
 
+const std::string& name_of(const Track& track, std::span<const std::string> trackers) {
+  return trackers[static_cast<std::size_t>(track.tracker)];
+}
+
 /// A list as the value of a structure's field.
 class List {
  public:
@@ -56,7 +60,9 @@ class List {
 GstStructure* tracks_message(const EngineResult& result, GstClockTime timestamp,
                              std::span<const std::string> trackers) {
   List tracks;
-  for (std::size_t i = 0; i < trackers.size(); ++i) tracks.append(result.tracks[i], trackers[i]);
+  for (const Track& track : result.tracks) {
+    tracks.append(track_structure(track, name_of(track, trackers)));
+  }
   GstStructure* message = gst_structure_new(
       "glint-tracks", "frame", G_TYPE_INT64, static_cast<gint64>(result.frame), "time",
       G_TYPE_DOUBLE, result.time, "timestamp", G_TYPE_UINT64, static_cast<guint64>(timestamp),
@@ -81,16 +87,15 @@ GstStructure* revised_message(const Scheduler& scheduler, std::span<const std::s
 
 void add_regions(GstBuffer& buffer, const EngineResult& result,
                  std::span<const std::string> trackers, int width, int height) {
-  for (std::size_t i = 0; i < trackers.size(); ++i) {
-    for (const TrackPoint& point : result.tracks[i]) {
-      const auto box = box_around(point, kBoxRadius, width, height);
-      if (!box || point.status == TrackStatus::halted) continue;
-      GstVideoRegionOfInterestMeta* region = gst_buffer_add_video_region_of_interest_meta(
-          &buffer, trackers[i].c_str(), static_cast<guint>(box->left), static_cast<guint>(box->top),
-          static_cast<guint>(box->right - box->left), static_cast<guint>(box->bottom - box->top));
-      region->id = static_cast<gint>(point.track_id);
-      gst_video_region_of_interest_meta_add_param(region, track_structure(point, trackers[i]));
-    }
+  for (const Track& track : result.tracks) {
+    const auto box = box_around(track, kBoxRadius, width, height);
+    if (!box || track.status == TrackStatus::halted) continue;
+    const std::string& tracker = name_of(track, trackers);
+    GstVideoRegionOfInterestMeta* region = gst_buffer_add_video_region_of_interest_meta(
+        &buffer, tracker.c_str(), static_cast<guint>(box->left), static_cast<guint>(box->top),
+        static_cast<guint>(box->right - box->left), static_cast<guint>(box->bottom - box->top));
+    region->id = static_cast<gint>(track.track_id);
+    gst_video_region_of_interest_meta_add_param(region, track_structure(track, tracker));
   }
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/frontends/python/engine.hpp"
 
+#include <chrono>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
-#include "glint/frontends/config/run_config.hpp"
+#include "glint/engine/run_config.hpp"
 #include "glint/frontends/usage_error.hpp"
 
 namespace glint::python {
@@ -79,10 +81,26 @@ bool PushEngine::push_points(const py::object& points, double time) {
   return push(points_of(points, time));
 }
 
-std::optional<Result> PushEngine::poll() {
-  const std::optional<EngineResult> result = in_engine([&] { return engine_->poll(); });
+namespace {
+
+std::optional<Result> result_of(const std::optional<EngineResult>& result) {
   if (!result) return std::nullopt;
   return Result{result->frame, result->time, result->latency, track_array(result->tracks)};
+}
+
+}  // namespace
+
+std::optional<Result> PushEngine::poll(double timeout) {
+  return result_of(
+      in_engine([&] { return engine_->poll(std::chrono::duration<double>(timeout)); }));
+}
+
+std::optional<Result> PushEngine::next() {
+  return result_of(in_engine([&]() -> std::optional<EngineResult> {
+    const auto first = engine_->results().begin();
+    if (first == std::default_sentinel) return std::nullopt;
+    return *first;
+  }));
 }
 
 std::string PushEngine::checkpoint() {

@@ -33,7 +33,9 @@ class PushEngine {
 
   bool push(const py::object& frame, double time, bool copy);
   bool push_points(const py::object& points, double time);
-  std::optional<Result> poll();
+  std::optional<Result> poll(double timeout);  ///< [s]
+  /// Of the frames pushed by now, waited for; nothing once all of theirs were given.
+  std::optional<Result> next();
   std::string checkpoint();
   void restore(const std::string& checkpoint);
   void drain();

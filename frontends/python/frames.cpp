@@ -2,6 +2,7 @@
 #include "glint/frontends/python/frames.hpp"
 
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <utility>
@@ -63,10 +64,12 @@ void check_strides(const py::array& array) {
                         ": use numpy.ascontiguousarray(frame); rows may lie any distance apart");
 }
 
-bool aligned(const py::array& array) {
+/// Whether pixels are aligned, and rows do not overlap as those of a broadcast array do.
+bool can_be_lent(const py::array& array) {
   const auto address = reinterpret_cast<std::uintptr_t>(array.data());
+  const py::ssize_t row = array.nbytes() / array.shape(0);
   return address % static_cast<std::uintptr_t>(array.itemsize()) == 0 &&
-         array.strides(0) % array.itemsize() == 0;
+         array.strides(0) % array.itemsize() == 0 && std::abs(array.strides(0)) >= row;
 }
 
 decltype(RawPixels::data) data_of(const py::array& array, Pixel pixel) {
@@ -104,7 +107,7 @@ SourceFrame frame_of(const py::object& given, double time, bool copy, Lent& lent
   const Pixel pixel = pixel_of(array);
   check_shape(array);
   check_strides(array);
-  if (copy || !aligned(array)) array = array.attr("copy")();
+  if (copy || !can_be_lent(array)) array = array.attr("copy")();
   const auto channels = array.ndim() == 3 ? static_cast<int>(array.shape(2)) : 1;
   SourceFrame frame;
   frame.time = time;

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "glint/engine/run_config.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/experiments/experiment.hpp"
-#include "glint/frontends/config/run_config.hpp"
 #include "glint/frontends/config/toml.hpp"
 #include "glint/frontends/python/engine.hpp"
 #include "glint/frontends/python/studies.hpp"
@@ -84,8 +84,12 @@ void add_engine(py::module_& m) {
            "Queue the points of a scan without a frame, for trackers of points.\n\n"
            "`points` has the shape (n, 2) for x, y [px] or (n, 3) for x, y, amplitude. All pushes\n"
            "of an engine are of one kind. Returns and raises as push() does.")
-      .def("poll", &PushEngine::poll,
-           "The Result of the next frame that is done, in order, or None if there is none by now.")
+      .def(
+          "poll", &PushEngine::poll, "timeout"_a = 0.0,
+          "The Result of the next frame that is done, in order, waited for at most `timeout` [s],\n"
+          "or None if there is none by then. Raises what ended the engine once the results before\n"
+          "it were given.")
+      .def("_next", &PushEngine::next)
       .def(
           "checkpoint", [](PushEngine& engine) { return py::bytes(engine.checkpoint()); },
           "All that later frames depend on, and the tracks so far, as bytes.\n\n"

@@ -29,6 +29,15 @@ TrackArray track_array(std::span<const std::vector<TrackPoint>> trackers) {
   return array_of(rows);
 }
 
+TrackArray track_array(std::span<const Track> tracks) {
+  std::vector<glint_track> rows;
+  rows.reserve(tracks.size());
+  for (const Track& track : tracks) {
+    rows.push_back(track_of(track, static_cast<std::size_t>(track.tracker)));
+  }
+  return array_of(rows);
+}
+
 TruthArray truth_array(const std::vector<TruthPoint>& truth) { return array_of(truth); }
 
 std::vector<TrackPoint> track_points(const TrackArray& rows) {

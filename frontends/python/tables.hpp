@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "glint/engine/engine.hpp"
 #include "glint/engine/scenario/truth.hpp"
 #include "glint/engine/tracks/track_log.hpp"
 #include "glint/frontends/capi/glint.h"
@@ -22,6 +23,7 @@ void register_rows();
 
 /// The trackers' points, one list a tracker, as rows in that order.
 TrackArray track_array(std::span<const std::vector<TrackPoint>> trackers);
+TrackArray track_array(std::span<const Track> tracks);
 TruthArray truth_array(const std::vector<TruthPoint>& truth);
 
 std::vector<TrackPoint> track_points(const TrackArray& rows);

@@ -3,23 +3,16 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "glint/kernels/core/frame.hpp"
+#include "glint/kernels/core/raw_pixels.hpp"
 #include "glint/kernels/core/trial.hpp"
 #include "glint/kernels/prepare_frame/background.hpp"
 #include "glint/kernels/prepare_frame/registration.hpp"
 #include "glint/kernels/prepare_frame/whiten.hpp"
 
 namespace glint {
-
-/// Pixels as a source delivers them: interleaved channels of 8 or 16 bits, or float.
-struct RawPixels {
-  std::variant<const std::uint8_t*, const std::uint16_t*, const float*> data;
-  int width = 0, height = 0, channels = 1;  ///< 1 = grey, 3 = BGR, 4 = BGRA
-  std::ptrdiff_t pitch = 0;                 ///< elements (not pixels) from one row to the next
-};
 
 /// Raw pixels to a grey float frame, .2989 R + .587 G + .114 B (P-HPMHT (1)), optionally
 /// reciprocal, 255 / max(I, floor) (P-HPMHT (2) with a floor for dark pixels). Bad pixels,

@@ -51,13 +51,14 @@ TEST(CApi, GivesTheTracksOfTheEngine) {
     ASSERT_EQ(glint_poll(engine.get(), &result, tracks.data(), tracks.size()), GLINT_OK);
     EXPECT_EQ(result.frame, frame.frame);
     EXPECT_GT(result.latency, 0);
-    ASSERT_EQ(result.tracks, frame.tracks[0].size());
-    for (std::size_t i = 0; i < result.tracks; ++i) expect_same(tracks[i], frame.tracks[0][i]);
+    ASSERT_EQ(result.tracks, frame.tracks.size());
+    for (std::size_t i = 0; i < result.tracks; ++i) expect_same(tracks[i], frame.tracks[i]);
     points += result.tracks;
   }
   EXPECT_GT(points, 10u);
   glint_result rest = GLINT_RESULT_INIT;
   EXPECT_EQ(glint_poll(engine.get(), &rest, nullptr, 0), GLINT_NOTHING);
+  EXPECT_EQ(glint_next(engine.get(), 0, &rest, nullptr, 0), GLINT_END);
   std::int64_t pushed = 0, dropped = -1;
   EXPECT_EQ(glint_counts(engine.get(), &pushed, &dropped), GLINT_OK);
   EXPECT_EQ(pushed, kFrames);

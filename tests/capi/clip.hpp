@@ -27,6 +27,10 @@ inline std::vector<std::uint16_t> picture(int frame) {
   return pixels;
 }
 
+inline std::vector<TrackPoint> points_of(const EngineResult& result) {
+  return {result.tracks.begin(), result.tracks.end()};
+}
+
 /// What the engine itself reports of the clip with a tracker's default settings.
 inline std::vector<EngineResult> engine_results(const char* name) {
   const Device device = Device::tbb();

@@ -8,7 +8,10 @@
 namespace glint {
 namespace {
 
+enum class Sky { clear, cloudy };
+
 struct Settings {
+  Sky sky = Sky::clear;
   bool online = true;
   int birth_particles = 1000;
   double survival = 0.99;
@@ -22,6 +25,7 @@ void describe(FieldList& list, Settings& s) {
   list("survival", s.survival, 0, 1, "", "probability of surviving a frame");
   list("polarity", s.polarity, {"bright", "dark", "both"}, "sign of targets");
   list("label", s.label, {}, "any text");
+  list("sky", s.sky, {{"clear", Sky::clear}, {"cloudy", Sky::cloudy}}, "weather");
 }
 
 struct ConfigTest : ::testing::Test {
@@ -54,7 +58,7 @@ struct ConfigTest : ::testing::Test {
 
 TEST_F(ConfigTest, SectionOwnsItsStructAndItsDefaults) {
   EXPECT_EQ(section.name(), "trackers.test");
-  EXPECT_EQ(section.fields().size(), 5u);
+  EXPECT_EQ(section.fields().size(), 6u);
   EXPECT_EQ(settings.birth_particles, 1000);
   const ConfigSection other = ConfigSection::of("x", Settings{.birth_particles = 7});
   EXPECT_EQ(other.as<Settings>().birth_particles, 7);
@@ -113,6 +117,45 @@ TEST_F(ConfigTest, WrongTypeSaysWhatIsTaken) {
 TEST_F(ConfigTest, UnknownChoiceListsTheChoices) {
   EXPECT_EQ(refusal("polarity", std::string("up")),
             "polarity must be bright, dark or both, got \"up\"");
+}
+
+TEST_F(ConfigTest, EnumerationsAreNamed) {
+  EXPECT_EQ(to_toml(field("sky")), "\"clear\"");
+  EXPECT_EQ(allowed(field("sky")), "clear or cloudy");
+  assign_text(field("sky"), "cloudy");
+  EXPECT_EQ(settings.sky, Sky::cloudy);
+  EXPECT_EQ(to_toml(field("sky")), "\"cloudy\"");
+  EXPECT_EQ(refusal("sky", std::string("Cloudy")), "sky must be clear or cloudy, got \"Cloudy\"");
+  EXPECT_EQ(refusal("sky", std::int64_t{1}), "sky must be clear or cloudy, got 1");
+  EXPECT_EQ(settings.sky, Sky::cloudy);
+}
+
+std::string fault_of(const Settings& settings) {
+  try {
+    valid(settings);
+  } catch (const ConfigError& e) {
+    return e.what();
+  }
+  return "valid";
+}
+
+TEST(ValidConfig, StructsFilledByProgramsAreHeldToTheSameRanges) {
+  EXPECT_EQ(fault_of({}), "valid");
+  EXPECT_EQ(fault_of({.birth_particles = 0}), "birth_particles must be in [1, 1e7], got 0");
+  EXPECT_EQ(fault_of({.survival = 7}), "survival must be in [0, 1], got 7");
+  EXPECT_EQ(fault_of({.survival = std::numeric_limits<double>::quiet_NaN()}),
+            "survival must be in [0, 1], got nan");
+  EXPECT_EQ(fault_of({.polarity = "Bright"}),
+            "polarity must be bright, dark or both, got \"Bright\"");
+  EXPECT_EQ(fault_of({.sky = static_cast<Sky>(7)}),
+            "sky must be clear or cloudy, got \"another value\"");
+  EXPECT_EQ(valid(Settings{.survival = 0.5}).survival, 0.5);
+}
+
+TEST_F(ConfigTest, ASectionIsOfItsOwnTypeOnly) {
+  struct Other {};
+  EXPECT_THROW(section.as<Other>(), ConfigError);
+  EXPECT_EQ(section.as<Settings>().birth_particles, 1000);
 }
 
 TEST_F(ConfigTest, ReadsTextAsTheFieldsType) {

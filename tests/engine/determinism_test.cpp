@@ -84,7 +84,7 @@ TEST_P(Determinism, TheSeedMattersToThoseThatDrawRandomNumbers) {
   const Device device = Device::tbb(2);
   const auto log = [&](std::uint64_t seed) {
     FramesConfig frames;
-    frames.background = "none";
+    frames.background = BackgroundKind::none;
     Scheduler scheduler(device, FramePreparer(frames, device));
     scheduler.add(GetParam().make(GetParam().config(), device, seed));
     SceneSource source(make_scene(CrossingScene{}), 3);

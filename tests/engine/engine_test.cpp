@@ -80,8 +80,9 @@ TEST_P(EngineTest, ResultsComeInOrderByPollOrByCallback) {
   EngineSettings settings;
   settings.on_result = [&](const EngineResult& result) {
     frames.push_back(result.frame);
-    EXPECT_EQ(result.tracks.at(0).size(), 2u);
-    EXPECT_EQ(result.tracks[0][1].frame, result.frame);
+    EXPECT_EQ(result.tracks.size(), 2u);
+    EXPECT_EQ(result.tracks.at(1).frame, result.frame);
+    EXPECT_EQ(result.tracks[1].tracker, 0);
     EXPECT_GT(result.latency, 0);
   };
   const auto calling = engine(settings);
@@ -111,6 +112,83 @@ TEST_P(EngineTest, AResultDoesNotWaitForALaterFrame) {
     ASSERT_TRUE(result);
     EXPECT_EQ(result->frame, f);
   }
+}
+
+TEST_P(EngineTest, ResultsEndWithTheLastFramePushed) {
+  const auto pushed = engine();
+  std::vector<std::int64_t> frames;
+  for (std::int64_t f = 0; f < 5; ++f) pushed->push(Picture(f).raw, static_cast<double>(f));
+  for (const auto& result : pushed->results()) frames.push_back(result.frame);
+  EXPECT_EQ(frames, first(5)) << "waits for those at work, before finish() too";
+  EXPECT_TRUE(pushed->more());
+  for (std::int64_t f = 5; f < 9; ++f) pushed->push(Picture(f).raw, static_cast<double>(f));
+  pushed->finish();
+  for (const auto& result : pushed->results()) frames.push_back(result.frame);
+  EXPECT_EQ(frames, first(9));
+  EXPECT_FALSE(pushed->more());
+}
+
+TEST_P(EngineTest, ResultsBeforeAFailureComeThenTheFailure) {
+  const auto failing = engine({}, throws_at(3, "no fourth"));
+  std::vector<std::int64_t> frames;
+  const auto go_through = [&] {
+    for (std::int64_t f = 0; f < 6; ++f) failing->push(Picture(f).raw, static_cast<double>(f));
+    for (const auto& result : failing->results()) frames.push_back(result.frame);
+  };
+  EXPECT_THROW(go_through(), std::runtime_error);
+  EXPECT_THROW(
+      {
+        for (const auto& result : failing->results()) frames.push_back(result.frame);
+      },
+      std::runtime_error);
+  EXPECT_EQ(frames, first(3));
+}
+
+TEST_P(EngineTest, PollWaitsAsLongAsItIsToldTo) {
+  Gate gate;
+  const auto held = engine({}, gate.hook());
+  held->push(Picture(0).raw, 0);
+  gate.reached.get_future().wait();
+  EXPECT_FALSE(held->poll(20ms)) << "the tracker holds the frame";
+  gate.promise.set_value();
+  EXPECT_EQ(held->poll(std::chrono::hours(24 * 365 * 1000)).value().frame, 0);
+  held->finish();
+  EXPECT_FALSE(held->poll(1h)) << "nothing more can come, so nothing is waited for";
+}
+
+TEST_P(EngineTest, ABackgroundLearnedAheadHoldsFramesUntilItIsKnown) {
+  Scheduler fresh = scheduler_on(device);
+  fresh.prime(6);
+  fresh.add(std::make_unique<FakeTracker>(1));
+  EngineSettings small;
+  small.queue = 2;
+  Engine primed(std::move(fresh), small);
+  for (std::int64_t f = 0; f < 5; ++f) primed.push(Picture(f).raw, static_cast<double>(f));
+  EXPECT_FALSE(primed.poll(20ms)) << "a sixth frame is to come";
+  primed.push(Picture(5).raw, 5);
+  for (std::int64_t f = 0; f < 6; ++f) EXPECT_EQ(primed.poll(10s).value().frame, f);
+
+  Scheduler fewer = scheduler_on(device);
+  fewer.prime(6);
+  fewer.add(std::make_unique<FakeTracker>(1));
+  Engine hurried(std::move(fewer));
+  hurried.push(Picture(0).raw, 0);
+  hurried.drain();  // whoever waits for all frames gets them
+  EXPECT_EQ(hurried.poll().value().frame, 0);
+}
+
+TEST(EngineCheckpoint, IsTakenWhileFramesAreHeldAndGoneOnFrom) {
+  const Settings settings{{"background_prime", 4}, {"birth_particles", 200}, {"threads", 2}};
+  Engine first("smc-phd", settings), next("smc-phd", settings);
+  first.push(Picture(0).raw, 0), first.push(Picture(1).raw, 1);
+  next.restore(first.checkpoint());
+  for (Engine* engine : {&first, &next}) {
+    for (std::int64_t f = 2; f < 8; ++f) engine->push(Picture(f).raw, static_cast<double>(f));
+    engine->finish();
+  }
+  EXPECT_EQ(next.pushed(), 8);
+  EXPECT_EQ(next.scheduler().frames(), 8);
+  EXPECT_EQ(next.scheduler().logs()[0]->text(), first.scheduler().logs()[0]->text());
 }
 
 TEST_P(EngineTest, AFullQueueHoldsThePusherBack) {
@@ -184,7 +262,8 @@ TEST_P(EngineTest, AFailureComesOutOfTheNextCallAndFinish) {
   EXPECT_THROW(failing->drain(), std::runtime_error);
   EXPECT_THROW(failing->finish(), std::runtime_error);
   for (std::int64_t f = 0; f < 3; ++f) EXPECT_EQ(failing->poll().value().frame, f);
-  EXPECT_FALSE(failing->poll());
+  EXPECT_THROW(failing->poll(), std::runtime_error);
+  EXPECT_FALSE(failing->more());
 }
 
 TEST_P(EngineTest, WhatACallbackThrowsEndsIt) {
@@ -208,6 +287,28 @@ TEST_P(EngineTest, MayEndWithFramesInItAndRefusesFramesAfterwards) {
   finished->finish();
   EXPECT_THROW(finished->push(Picture(0).raw, 0), std::logic_error);
   EXPECT_THROW(finished->push(RawPixels{}, 0), std::invalid_argument);
+}
+
+TEST_P(EngineTest, APitchOf0IsPackedAndOneBelowTheWidthIsRefused) {
+  const auto packed = engine(), pitched = engine();
+  for (std::int64_t f = 0; f < 3; ++f) {
+    const Picture dense(f), wide(f, kWidth + 5);
+    packed->push({dense.pixels.data(), kWidth, kHeight}, static_cast<double>(f));
+    pitched->push(wide.raw, static_cast<double>(f));
+  }
+  packed->finish(), pitched->finish();
+  EXPECT_EQ(packed->scheduler().logs()[0]->text(), pitched->scheduler().logs()[0]->text());
+
+  const auto refusing = engine();
+  const Picture picture(0);
+  RawPixels narrow = picture.raw;
+  narrow.pitch = kWidth - 1;
+  EXPECT_THROW(refusing->push(narrow, 0), std::invalid_argument);
+  SourceFrame lent;
+  lent.pixels = narrow;
+  EXPECT_THROW(refusing->push(lent), std::invalid_argument);
+  EXPECT_THROW(refusing->push({static_cast<const float*>(nullptr), 4, 4}, 0),
+               std::invalid_argument);
 }
 
 TEST_P(EngineTest, PixelsThatAreNotCopiedAreLetGoOf) {

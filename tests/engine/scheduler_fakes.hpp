@@ -93,7 +93,7 @@ inline Hook throws_at(std::int64_t when, const std::string& message) {
 
 inline Scheduler scheduler_on(const Device& device) {
   FramesConfig frames;
-  frames.background = "none";
+  frames.background = BackgroundKind::none;
   return {device, FramePreparer(frames, device)};
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/frontends/config/profiles.hpp"
+#include "glint/engine/profiles.hpp"
 
 #include <gtest/gtest.h>
 
 #include "cli.hpp"
-#include "glint/frontends/config/run_config.hpp"
+#include "glint/engine/run_config.hpp"
 
 namespace glint::test {
 namespace {

@@ -197,10 +197,6 @@ TEST(RawStream, MistakesAreNamed) {
   test::expect_error(
       test::glint(folder, kTrack + "--format gray8 --tracker viterbi --out - < /dev/null"), 2,
       "give the others a file");
-  test::expect_error(
-      test::glint(folder,
-                  kTrack + "--format gray8 --set frames.background_prime=5 --out - < /dev/null"),
-      2, "standard input can be read once");
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 #include "clip.hpp"
 #include "frontends/cli.hpp"
+#include "glint/engine/run_config.hpp"
 #include "glint/frontends/capi/track_row.hpp"
-#include "glint/frontends/config/run_config.hpp"
 #include "glint/frontends/config/toml.hpp"
 #ifdef GLINT_GST_PLUGINS
 #include "pipeline.hpp"
@@ -20,15 +20,11 @@
 namespace glint::test {
 namespace {
 
-// A file's background could be learned ahead, a stream's not: background_prime.
 constexpr const char* kSettings = R"(
 [run]
 seed = 7
 [frames]
 background_frames = 12
-background_prime = 0
-[trackers.mm-phd]
-birth_particles = 3000
 )";
 const std::vector<std::string> kTrackers{"mm-phd", "h-pmht", "pmht-imm"};
 
@@ -37,6 +33,12 @@ using Rows = std::vector<glint_track>;
 void append(Rows& rows, const std::vector<TrackPoint>& points) {
   for (const TrackPoint& point : points) rows.push_back(track_of(point, 0));
 }
+
+/// The tracks of one way, and how many results it gave.
+struct Given {
+  Rows rows;
+  std::int64_t results = 0;
+};
 
 /// Of 16-bit frames: the product writes float32, and the least noise that is taken for real depends
 /// on the kind of pixel.
@@ -48,11 +50,13 @@ std::string npy_header() {
   return std::string("\x93NUMPY\x01\0", 8) + std::string("\x76\0", 2) + text + '\n';
 }
 
-/// The clip and the settings as files; what the engine makes of them, pushed in C++.
-class Ways : public testing::TestWithParam<std::string> {
+/// The clip and the settings as files; what the engine makes of them, pushed in C++. The background
+/// is learned from the frames before each one, or ahead from the first nine.
+class Ways : public testing::TestWithParam<std::tuple<std::string, int>> {
  protected:
   Ways() {
-    std::ofstream(config_) << kSettings;
+    settings_ = kSettings + std::string("background_prime = ") + std::to_string(ahead()) + "\n";
+    std::ofstream(config_) << settings_;
     std::ofstream raw(raw_, std::ios::binary), npy(npy_, std::ios::binary);
     npy << npy_header();
     for (int f = 0; f < kFrames; ++f) {
@@ -61,27 +65,39 @@ class Ways : public testing::TestWithParam<std::string> {
                                    sizeof(pixels[0]) * pixels.size());
       raw << bytes, npy << bytes;
     }
-    expected_ = pushed();
+    const Given cpp = pushed();
+    EXPECT_EQ(cpp.results, kFrames);
+    EXPECT_GT(cpp.rows.size(), 10u);
+    expected_ = cpp.rows;
   }
 
-  Rows pushed() const {
-    std::vector<ConfigSection> sections = all_sections();
-    parse_toml(kSettings, "settings", sections);
-    apply_set("run.tracker=" + GetParam(), sections);
-    Engine engine(pushed_frames_scheduler(sections));
+  static std::string tracker() { return std::get<0>(GetParam()); }
+  static int ahead() { return std::get<1>(GetParam()); }
+
+  static Given pushed() {
+    Engine engine(tracker(),
+                  {{"seed", 7}, {"background_frames", 12}, {"background_prime", ahead()}});
+    Given given;
+    const auto take = [&](const EngineResult& result) {
+      ++given.results;
+      for (const Track& track : result.tracks) given.rows.push_back(track_of(track, 0));
+    };
     for (int f = 0; f < kFrames; ++f) {
       const auto pixels = picture(f);
-      engine.push({pixels.data(), kWidth, kHeight, 1, kWidth}, f);
+      engine.push({pixels.data(), kWidth, kHeight}, f);
+      while (const auto result = engine.poll()) take(*result);
     }
     engine.finish();
-    Rows rows;
-    while (const auto result = engine.poll()) append(rows, result->tracks[0]);
-    return rows;
+    for (const auto& result : engine.results()) take(result);
+    return given;
   }
 
+  void expect_same(const Given& given) const {
+    EXPECT_EQ(given.results, kFrames);
+    expect_same(given.rows);
+  }
   /// As bytes, so that NaN equals NaN.
   void expect_same(const Rows& rows) const {
-    EXPECT_GT(expected_.size(), 10u);
     ASSERT_EQ(rows.size(), expected_.size());
     EXPECT_EQ(std::memcmp(rows.data(), expected_.data(), rows.size() * sizeof(glint_track)), 0);
   }
@@ -110,17 +126,18 @@ class Ways : public testing::TestWithParam<std::string> {
     return rows;
   }
 
-  std::string options() const { return " --config " + config_ + " --tracker " + GetParam(); }
+  std::string options() const { return " --config " + config_ + " --tracker " + tracker(); }
 
   Folder folder_;
-  std::string config_ = folder_ / "settings.toml", raw_ = folder_ / "clip.raw",
-              npy_ = folder_ / "clip.npy";
+  std::string settings_, config_ = folder_ / "settings.toml", raw_ = folder_ / "clip.raw",
+                         npy_ = folder_ / "clip.npy";
   Rows expected_;
 };
 
 TEST_P(Ways, C) {
   glint_options options = GLINT_OPTIONS_INIT;
-  options.tracker = GetParam().c_str(), options.config = kSettings;
+  const std::string name = tracker();
+  options.tracker = name.c_str(), options.config = settings_.c_str();
   glint_engine* engine = nullptr;
   ASSERT_EQ(glint_create(&options, &engine), GLINT_OK) << glint_last_error();
   for (int f = 0; f < kFrames; ++f) {
@@ -131,14 +148,18 @@ TEST_P(Ways, C) {
     ASSERT_EQ(glint_push(engine, &frame), GLINT_OK) << glint_last_error();
   }
   ASSERT_EQ(glint_finish(engine), GLINT_OK) << glint_last_error();
-  Rows rows;
+  Given given;
   std::array<glint_track, 50> tracks;
   glint_result result = GLINT_RESULT_INIT;
-  while (glint_poll(engine, &result, tracks.data(), tracks.size()) == GLINT_OK) {
-    rows.insert(rows.end(), tracks.begin(), tracks.begin() + static_cast<long>(result.tracks));
+  glint_status status = GLINT_OK;
+  while ((status = glint_next(engine, 1, &result, tracks.data(), tracks.size())) == GLINT_OK) {
+    ++given.results;
+    given.rows.insert(given.rows.end(), tracks.begin(),
+                      tracks.begin() + static_cast<long>(result.tracks));
   }
+  EXPECT_EQ(status, GLINT_END);
   glint_destroy(engine);
-  expect_same(rows);
+  expect_same(given);
 }
 
 TEST_P(Ways, Pipe) {
@@ -161,13 +182,13 @@ TEST_P(Ways, Python) {
   const std::string out = folder_ / "rows";
   const std::string command = std::string(GLINT_PYTHON) + " " + GLINT_PYTHON_WAY + " " + raw_ +
                               " " + std::to_string(kHeight) + " " + std::to_string(kWidth) + " " +
-                              config_ + " " + GetParam() + " > " + out;
+                              config_ + " " + tracker() + " > " + out + " 2> " + out + ".count";
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
   const std::string bytes = content_of(out);
   Rows rows(bytes.size() / sizeof(glint_track));
   ASSERT_EQ(rows.size() * sizeof(glint_track), bytes.size());
   std::memcpy(rows.data(), bytes.data(), bytes.size());
-  expect_same(rows);
+  expect_same({rows, std::stoll(content_of(out + ".count"))});
 #else
   GTEST_SKIP() << "NOT TESTED: this build has no Python module; configuring says what is missing";
 #endif
@@ -177,23 +198,30 @@ TEST_P(Ways, GStreamer) {
 #ifdef GLINT_GST_PLUGINS
   Pipeline pipeline("filesrc location=" + raw_ + " ! rawvideoparse format=gray16-le width=" +
                     std::to_string(kWidth) + " height=" + std::to_string(kHeight) +
-                    " framerate=1/1 ! glinttrack config-file=" + config_ +
-                    " tracker=" + GetParam() + " ! fakesink");
-  ASSERT_EQ(pipeline.run(), "");
-  Rows rows;
-  for (const Posted& frame : pipeline.posted) append(rows, frame.tracks);
-  expect_same(rows);
+                    " framerate=1/1 ! glinttrack config-file=" + config_ + " tracker=" + tracker() +
+                    " ! fakesink");
+  const std::string error = pipeline.run();
+  if (ahead() > 0) {  // each picture leaves with its own tracks
+    EXPECT_NE(error.find("frames.background_prime"), std::string::npos) << error;
+    return;
+  }
+  ASSERT_EQ(error, "");
+  Given given;
+  for (const Posted& frame : pipeline.posted) append(given.rows, frame.tracks), ++given.results;
+  expect_same(given);
 #else
   GTEST_SKIP()
       << "NOT TESTED: this build has no GStreamer plugin; configuring says what is missing";
 #endif
 }
 
-INSTANTIATE_TEST_SUITE_P(Trackers, Ways, testing::ValuesIn(kTrackers), [](const auto& tracker) {
-  std::string name = tracker.param;
-  std::ranges::replace(name, '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Trackers, Ways,
+                         testing::Combine(testing::ValuesIn(kTrackers), testing::Values(0, 9)),
+                         [](const auto& way) {
+                           std::string name = std::get<0>(way.param);
+                           std::ranges::replace(name, '-', '_');
+                           return name + (std::get<1>(way.param) > 0 ? "_learned_ahead" : "");
+                         });
 
 }  // namespace
 }  // namespace glint::test

@@ -21,7 +21,7 @@ double candidate_intensity(const HPmhtConfig& config) {
 }  // namespace
 
 HPmht::HPmht(const HPmhtConfig& config, const Device& device, std::uint64_t /*seed*/)
-    : config_(config),
+    : config_(valid(config)),
       device_(device),
       batch_(config, device),
       pairs_(PointSpread::of(config.psf_sigma), candidate_intensity(config), config.candidate_ratio,

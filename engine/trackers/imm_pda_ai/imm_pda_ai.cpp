@@ -20,7 +20,7 @@ double variance_of(const ImmPdaAiConfig& config) {
 }  // namespace
 
 ImmPdaAi::ImmPdaAi(const ImmPdaAiConfig& config, const Device& device, std::uint64_t /*seed*/)
-    : config_(config),
+    : config_(valid(config)),
       device_(device),
       noise_(variance_of(config) * Eigen::Matrix2d::Identity()),
       amplitude_model_(amplitude_model(config.amplitude)),

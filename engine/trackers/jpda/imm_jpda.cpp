@@ -29,7 +29,7 @@ PointNoise noise_of(const ImmJpdaConfig& config) {
 }  // namespace
 
 ImmJpda::ImmJpda(const ImmJpdaConfig& config, const Device&, std::uint64_t /*seed*/)
-    : config_(config),
+    : config_(valid(config)),
       confirmed_{SensorWindow(window_config(config, config.window), noise_of(config)), {}},
       tentative_{SensorWindow(window_config(config, 1), noise_of(config)), {}} {
   check(config);

@@ -15,8 +15,17 @@ void describe(FieldList& f, MmPfConfig& c) {
   describe_separation(f, c);
 }
 
+namespace {
+
+/// Odds at which a target is declared: Boers and Driessen's test.
+double declaring_odds(const MmPfConfig& c) {
+  return (1 - c.miss_probability) / c.false_probability * c.birth_mass;
+}
+
+}  // namespace
+
 MmPf::MmPf(const MmPfConfig& config, const Device& device, std::uint64_t seed)
-    : declaring_odds_((1 - config.miss_probability) / config.false_probability * config.birth_mass),
+    : declaring_odds_(declaring_odds(valid(config))),
       mode_names_(config.bank().names),
       appearance_(config),
       detector_(config, device, seed, WeightSum::odds),

@@ -19,7 +19,7 @@ void describe(FieldList& f, MmPhdConfig& c) {
 }
 
 MmPhd::MmPhd(const MmPhdConfig& config, const Device& device, std::uint64_t seed)
-    : least_mass_(config.existence),
+    : least_mass_(valid(config).existence),
       mode_names_(config.bank().names),
       appearance_(config),
       detector_(config, device, seed),

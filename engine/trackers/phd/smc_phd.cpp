@@ -9,7 +9,7 @@
 namespace glint {
 
 SmcPhd::SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t seed)
-    : config_(config),
+    : config_(valid(config)),
       seed_(seed),
       mode_names_(config.bank().names),
       appearance_(config),

@@ -27,7 +27,7 @@ ParticleBank bank_of(const MmpfPmhtConfig& config, const PmhtStart& start, std::
 
 template <class Config, class Bank>
 PmhtTracker<Config, Bank>::PmhtTracker(const Config& config, const Device&, std::uint64_t seed)
-    : config_(config), seed_(seed) {
+    : config_(valid(config)), seed_(seed) {
   settings_.origins.detection = config.detection;
   settings_.variance = config.measurement_variance;
   settings_.mixture = config.association == "mixture";

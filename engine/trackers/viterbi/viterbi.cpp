@@ -12,7 +12,7 @@
 namespace glint {
 
 Viterbi::Viterbi(const ViterbiConfig& config, const Device& device, std::uint64_t /*seed*/)
-    : config_(config),
+    : config_(valid(config)),
       device_(device),
       appearance_(config),
       window_(config.window, config.separation, device) {

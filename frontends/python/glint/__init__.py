@@ -3,12 +3,13 @@
 
     import glint
 
-    engine = glint.Engine("mm-phd", seed=1)
-    for time, frame in camera:              # uint8, uint16 or float32, (height, width)
-        engine.push(frame, time)
-        while (result := engine.poll()) is not None:
-            print(result.frame, result.tracks["x"], result.tracks["y"])
-    engine.finish()
+    with glint.Engine("mm-phd", seed=1) as engine:
+        for time, frame in camera:          # uint8, uint16 or float32, (height, width)
+            engine.push(frame, time)
+            while (result := engine.poll()) is not None:
+                print(result.frame, result.tracks["x"], result.tracks["y"])
+    for result in engine:                   # the last frames
+        print(result.frame, result.tracks["x"], result.tracks["y"])
 
 Positions are in pixels; (0, 0) is the centre of the top-left pixel, x to the right, y down.
 Tracks are structured arrays of the type `TRACK`; what is not known is NaN.
@@ -17,7 +18,7 @@ Tracks are structured arrays of the type `TRACK`; what is not known is NaN.
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
@@ -95,7 +96,11 @@ class Engine(_glint.Engine):
     What is tracked is a function of the frames, their times and the settings alone. References to
     frames whose pixels were read are dropped in the next call.
 
-    Raises ConfigError (a ValueError), with the nearest known name, for settings that are none.
+    Leaving a `with` block calls finish(). Iterating gives the results of all frames that were
+    pushed by then, waited for: after finish() it ends with the last frame's.
+
+    Raises ConfigError (a ValueError), with the nearest known name, for settings that are unknown or
+    have no effect.
     """
 
     def __init__(
@@ -114,6 +119,17 @@ class Engine(_glint.Engine):
         super().__init__(
             profile, text, values, _names(tracker), _flat(settings), queue, when_full
         )
+
+    def __enter__(self) -> Engine:
+        return self
+
+    def __exit__(self, kind: Any, error: Any, traceback: Any) -> None:
+        if kind is None:
+            self.finish()
+
+    def __iter__(self) -> Iterator[Result]:
+        while (result := self._next()) is not None:
+            yield result
 
 
 def track(

@@ -15,7 +15,8 @@ namespace {
 
 TEST(BadPixels, MasksPixelsThatAreNoNumbers) {
   const Scene scene;
-  for (const auto* background : {"temporal", "registered", "spatial", "none"}) {
+  for (const auto background : {BackgroundKind::temporal, BackgroundKind::registered,
+                                BackgroundKind::spatial, BackgroundKind::none}) {
     FramesConfig config;
     config.background = background;
     FramePreparer preparer(config, Device::tbb(1));
@@ -33,7 +34,8 @@ TEST(BadPixels, MasksPixelsThatAreNoNumbers) {
 
 TEST(BadPixels, TheLargestPixelsHaveAFiniteSigma) {
   std::vector<float> pixels(kWidth * kHeight);
-  for (const auto* background : {"temporal", "registered", "spatial", "none"}) {
+  for (const auto background : {BackgroundKind::temporal, BackgroundKind::registered,
+                                BackgroundKind::spatial, BackgroundKind::none}) {
     FramesConfig config;
     config.background = background;
     FramePreparer preparer(config, Device::tbb(1));
@@ -43,8 +45,10 @@ TEST(BadPixels, TheLargestPixelsHaveAFiniteSigma) {
       }
       const auto time = static_cast<double>(frame);
       const Scan scan = preparer.prepare(raw(pixels), static_cast<std::int64_t>(frame), time);
-      EXPECT_TRUE(std::isfinite(scan.noise_sigma)) << background << ", frame " << frame;
-      EXPECT_TRUE(all_finite(scan.whitened.view())) << background << ", frame " << frame;
+      EXPECT_TRUE(std::isfinite(scan.noise_sigma))
+          << static_cast<int>(background) << ", frame " << frame;
+      EXPECT_TRUE(all_finite(scan.whitened.view()))
+          << static_cast<int>(background) << ", frame " << frame;
     }
   }
 }

@@ -16,14 +16,14 @@ namespace {
 TEST(FramePreparer, WhitensNoiseToUnitVariance) {
   Scene scene;
   scene.amplitude = 0;
-  for (const auto* background : {"temporal", "registered"}) {
+  for (const auto background : {BackgroundKind::temporal, BackgroundKind::registered}) {
     FramesConfig config;
     config.background = background;
     config.structure = false;
     FramePreparer preparer(config, Device::tbb(2));
     const Scan scan = prepare(preparer, scene, 40);
-    EXPECT_NEAR(deviation(scan.whitened.view()), 0.97, 0.06) << background;
-    EXPECT_NEAR(scan.noise_sigma, 2.1, 0.25) << background;
+    EXPECT_NEAR(deviation(scan.whitened.view()), 0.97, 0.06) << static_cast<int>(background);
+    EXPECT_NEAR(scan.noise_sigma, 2.1, 0.25) << static_cast<int>(background);
   }
 }
 
@@ -46,7 +46,7 @@ TEST(FramePreparer, ShowsAMovingTargetFromTheFirstFramesOn) {
 // A target that stands still for the first frames is background until it moves, unless the
 // background was learned ahead.
 TEST(FramePreparer, LearnsTheBackgroundAhead) {
-  const auto z_of_a_waiting_target = [](const char* background, int learned) {
+  const auto z_of_a_waiting_target = [](BackgroundKind background, int learned) {
     FramesConfig config;
     config.structure = false;
     config.background = background;
@@ -56,9 +56,9 @@ TEST(FramePreparer, LearnsTheBackgroundAhead) {
     for (int t = 0; t < 10; ++t) scan = preparer.prepare(raw(Scene{}.at(5)), t, t);
     return scan.whitened.view()(static_cast<int>(std::lround(Scene{}.target_x(5))), 30);
   };
-  for (const auto* background : {"temporal", "registered"}) {
-    EXPECT_LT(z_of_a_waiting_target(background, 0), 1) << background;
-    EXPECT_GT(z_of_a_waiting_target(background, 30), 5) << background;
+  for (const auto background : {BackgroundKind::temporal, BackgroundKind::registered}) {
+    EXPECT_LT(z_of_a_waiting_target(background, 0), 1) << static_cast<int>(background);
+    EXPECT_GT(z_of_a_waiting_target(background, 30), 5) << static_cast<int>(background);
   }
 }
 
@@ -79,7 +79,8 @@ TEST(FramePreparer, AStaticSceneLeavesNothing) {
 }
 
 TEST(FramePreparer, OneFrameOrAConstantOneOfAnySizeIsDefined) {
-  for (const auto* background : {"temporal", "registered", "spatial", "none"}) {
+  for (const auto background : {BackgroundKind::temporal, BackgroundKind::registered,
+                                BackgroundKind::spatial, BackgroundKind::none}) {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 40}, {3, 2}, {7, 7}, {65, 33}}) {
       FramesConfig config;
       config.background = background;
@@ -87,7 +88,7 @@ TEST(FramePreparer, OneFrameOrAConstantOneOfAnySizeIsDefined) {
       for (const float value : {0.0F, 0.0F, 5.0F}) {
         const std::vector<float> pixels(static_cast<std::size_t>(width * height), value);
         const Scan scan = preparer.prepare(raw(pixels, width, height), 0, 0);
-        EXPECT_TRUE(all_finite(scan.whitened.view())) << background << width;
+        EXPECT_TRUE(all_finite(scan.whitened.view())) << static_cast<int>(background) << width;
         EXPECT_TRUE(std::isfinite(scan.noise_sigma));
         EXPECT_GT(scan.noise_sigma, 0);
       }
@@ -122,7 +123,7 @@ TEST(FramePreparer, ReusesFramesThatNobodyHolds) {
 
 TEST(FramePreparer, GivesTheSameBitsOnAnyNumberOfThreads) {
   const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
-  for (const auto* background : {"temporal", "registered"}) {
+  for (const auto background : {BackgroundKind::temporal, BackgroundKind::registered}) {
     FramesConfig config;
     config.background = background;
     std::vector<Scan> scans;
@@ -135,7 +136,8 @@ TEST(FramePreparer, GivesTheSameBitsOnAnyNumberOfThreads) {
     for (int y = 0; y < kHeight; ++y) {
       for (std::size_t i = 1; i < scans.size(); ++i) {
         const float* a = scans[0].whitened.view().row(y);
-        ASSERT_TRUE(std::equal(a, a + kWidth, scans[i].whitened.view().row(y))) << background;
+        ASSERT_TRUE(std::equal(a, a + kWidth, scans[i].whitened.view().row(y)))
+            << static_cast<int>(background);
       }
     }
   }
@@ -148,7 +150,7 @@ TEST(FramePreparer, RegistrationFollowsAMovingCamera) {
   config.registered_frames = 11;
   config.structure = false;
   FramePreparer still(config, Device::tbb(2));
-  config.background = "registered";
+  config.background = BackgroundKind::registered;
   FramePreparer moving(config, Device::tbb(2));
   const double without = prepare(still, scene, 20).noise_sigma;
   const double with = prepare(moving, scene, 20).noise_sigma;
@@ -158,14 +160,14 @@ TEST(FramePreparer, RegistrationFollowsAMovingCamera) {
 TEST(FramePreparer, DarkTargetsComeOutPositive) {
   Scene scene;
   scene.amplitude = -20;
-  for (const auto* polarity : {"dark", "both"}) {
+  for (const auto polarity : {Polarity::dark, Polarity::both}) {
     FramesConfig config;
     config.polarity = polarity;
     config.structure = false;
     FramePreparer preparer(config, Device::tbb(1));
     const Scan scan = prepare(preparer, scene, 20);
     const int x = static_cast<int>(std::lround(scene.target_x(19)));
-    EXPECT_GT(scan.whitened.view()(x, 30), 3) << polarity;
+    EXPECT_GT(scan.whitened.view()(x, 30), 3) << static_cast<int>(polarity);
   }
 }
 

@@ -31,7 +31,7 @@ struct PointTracker : FakeTracker {
 
 std::vector<std::size_t> counts_of(Feed feed, const PointsConfig& config, const Device& device) {
   FramesConfig frames;
-  frames.background = "none";
+  frames.background = BackgroundKind::none;
   Scheduler scheduler(device, FramePreparer(frames, device), config);
   auto tracker = std::make_unique<PointTracker>(feed, PointFinder(config, device));
   const PointTracker& told = *tracker;
@@ -82,7 +82,7 @@ TEST(Points, UnitsAreBlocksAboveTheFramesMeanIntensity) {
   std::vector<Point> points;
   for (const Device& device : {Device::serial(), Device::tbb(2)}) {
     PointsConfig config;
-    config.mode = "unit_5x5";
+    config.mode = FindPoints::Mode::unit_5x5;
     config.unit_threshold = 14 / 10.5 - 1e-4;
     PointFinder(config, device).find(scan, points);
     EXPECT_EQ(points, (std::vector<Point>{{12, 7, 14}}));
@@ -93,12 +93,12 @@ TEST(Points, UnitsAreBlocksAboveTheFramesMeanIntensity) {
 }
 
 TEST(Points, OfAScanWithoutFramesAreNone) {
-  for (const char* mode : {"local_maximum", "unit_5x5"}) {
+  for (const auto mode : {FindPoints::Mode::local_maximum, FindPoints::Mode::unit_5x5}) {
     PointsConfig config;
     config.mode = mode;
     std::vector<Point> points(3);
     PointFinder(config, Device::tbb(2)).find(Scan{}, points);
-    EXPECT_TRUE(points.empty()) << mode;
+    EXPECT_TRUE(points.empty()) << static_cast<int>(mode);
   }
 }
 

@@ -21,7 +21,8 @@ struct CheckpointCase {
   friend void PrintTo(const CheckpointCase& c, std::ostream* out) {
     *out << c.tracker;
     for (const auto& [key, value] : c.settings) *out << ' ' << key << '=' << value;
-    *out << ' ' << c.frames.background << (c.points_alone ? " points" : "");
+    *out << " background " << static_cast<int>(c.frames.background)
+         << (c.points_alone ? " points" : "");
   }
 };
 

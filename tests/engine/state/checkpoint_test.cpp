@@ -28,9 +28,9 @@ void track(Scheduler& scheduler, SourceFrame frame) {
   scheduler.advance(source);
 }
 
-FramesConfig background(const std::string& name) {
+FramesConfig background(BackgroundKind kind) {
   FramesConfig frames;
-  frames.background = name;
+  frames.background = kind;
   frames.background_frames = 12, frames.background_stride = 2, frames.registered_frames = 5;
   return frames;
 }
@@ -39,25 +39,30 @@ std::vector<CheckpointCase> cases() {
   std::vector<CheckpointCase> all;
   for (const TrackerEntry& t : all_trackers()) {
     const std::string name(t.name);
-    if (t.feed != Feed::points) all.push_back({name, {}, background("temporal"), false, true});
-    if (t.feed != Feed::frames) all.push_back({name, {}, background("none"), true});
+    if (t.feed != Feed::points)
+      all.push_back({name, {}, background(BackgroundKind::temporal), false, true});
+    if (t.feed != Feed::frames) all.push_back({name, {}, background(BackgroundKind::none), true});
   }
-  all.push_back({"smc-phd", {{"psf_sigma", "auto"}}, background("registered")});
-  all.push_back(
-      {"smc-phd", {{"birth", "matched-filter"}, {"states", "kmeans"}}, background("none")});
-  all.push_back({"mm-phd", {{"psf_sigma", "auto"}}, background("spatial")});
-  all.push_back({"imm-jpda", {}, background("temporal")});
-  all.push_back({"imm-jpda", {{"window", "3"}, {"reading", "restart"}}, background("none"), true});
+  all.push_back({"smc-phd", {{"psf_sigma", "auto"}}, background(BackgroundKind::registered)});
+  all.push_back({"smc-phd",
+                 {{"birth", "matched-filter"}, {"states", "kmeans"}},
+                 background(BackgroundKind::none)});
+  all.push_back({"mm-phd", {{"psf_sigma", "auto"}}, background(BackgroundKind::spatial)});
+  all.push_back({"imm-jpda", {}, background(BackgroundKind::temporal)});
+  all.push_back({"imm-jpda",
+                 {{"window", "3"}, {"reading", "restart"}},
+                 background(BackgroundKind::none),
+                 true});
   all.push_back({"imm-jpda",
                  {{"window", "3"},
                   {"motion", "ncv+wpa"},
                   {"measurement", "range-azimuth"},
                   {"range_sd", "1"},
                   {"azimuth_sd", "0.01"}},
-                 background("none"),
+                 background(BackgroundKind::none),
                  true});
-  all.push_back({"imm-pda-ai", {{"points", "units"}}, background("temporal")});
-  all.push_back({"h-pmht", {{"intensity", "rpim"}}, background("temporal")});
+  all.push_back({"imm-pda-ai", {{"points", "units"}}, background(BackgroundKind::temporal)});
+  all.push_back({"h-pmht", {{"intensity", "rpim"}}, background(BackgroundKind::temporal)});
   return all;
 }
 
@@ -99,10 +104,11 @@ TEST_P(Checkpoint, GoesOnWithTheSameBytes) {
 TEST(EglCheckpoint, GoesOnWithTheSameBytes) {
   GLINT_NEEDS_EGL(device);
   const Scene scene = checkpoint_scene();
-  const std::vector<CheckpointCase> some{
-      {"smc-phd", {}, background("temporal")},
-      {"viterbi", {{"window", "4"}, {"common_frames", "2"}}, background("registered")},
-      {"mm-pf", {}, background("spatial")}};
+  const std::vector<CheckpointCase> some{{"smc-phd", {}, background(BackgroundKind::temporal)},
+                                         {"viterbi",
+                                          {{"window", "4"}, {"common_frames", "2"}},
+                                          background(BackgroundKind::registered)},
+                                         {"mm-pf", {}, background(BackgroundKind::spatial)}};
   for (const CheckpointCase& c : some) {
     Scheduler whole = checkpoint_scheduler(c, device);
     int f = 0;
@@ -252,7 +258,7 @@ TEST_F(CheckpointLabels, AnEngineGoesOnWithItsCountsAndWaitingResults) {
     engine.drain();
     std::int64_t next = -1;
     const auto look = [&](const EngineResult& result) { return next = result.frame, false; };
-    EXPECT_FALSE(engine.poll(look));
+    EXPECT_FALSE(engine.poll({}, look));
     EXPECT_EQ(next, 0);
   };
   held(first);
@@ -299,7 +305,7 @@ TEST_F(CheckpointLabels, FramesMayBePushedMeanwhile) {
 // The order of its trackers is part of it, and frames that both hold are one.
 TEST_F(CheckpointLabels, TwoTrackersGoOnTogether) {
   const Scene scene = checkpoint_scene();
-  const CheckpointCase clip{"h-pmht", {}, background("registered")};
+  const CheckpointCase clip{"h-pmht", {}, background(BackgroundKind::registered)};
   const auto both = [&](const Device& device) {
     Scheduler scheduler = checkpoint_scheduler(clip, device);
     const TrackerEntry& entry = find_tracker("viterbi");

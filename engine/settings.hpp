@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <concepts>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "glint/engine/config.hpp"
 
 namespace glint {
+
+/// A setting as programs give it: {"snr_low", 6}, {"frames.polarity", "dark"}, {"ring", false}.
+struct Setting {
+  std::string key;
+  ConfigValue value;
+
+  Setting(std::string name, ConfigValue given) : key(std::move(name)), value(std::move(given)) {}
+  template <std::integral Number>
+  requires(!std::same_as<Number, bool>) Setting(std::string name, Number given)
+      : key(std::move(name)), value(static_cast<std::int64_t>(given)) {}
+};
+using Settings = std::vector<Setting>;
 
 /// A field and the section that it stands in.
 struct FoundSetting {

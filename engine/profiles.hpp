@@ -9,7 +9,8 @@ namespace glint {
 
 /// Settings that go together, under a name: those of frames and of several trackers.
 struct Profile {
-  std::string_view name, summary, toml;
+  std::string_view name, summary;
+  std::span<const std::string_view> settings;  ///< "section.key=value"
 };
 
 /// The one list of profiles.

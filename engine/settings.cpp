@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/frontends/config/settings.hpp"
+#include "glint/engine/settings.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/frontends/config/run_config.hpp"
+#include "glint/engine/run_config.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
 #include "glint/engine/frames/frame_preparer.hpp"
 #include "glint/engine/frames/point_finder.hpp"
+#include "glint/engine/number_text.hpp"
+#include "glint/engine/profiles.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
-#include "glint/frontends/config/toml.hpp"
-#include "glint/frontends/usage_error.hpp"
 
 namespace glint {
 
@@ -37,11 +38,43 @@ void describe(FieldList& list, RunConfig& c) {
 
 namespace {
 
+/// Settings that nothing would come of where a program pushes frames.
 void refuse_what_reads_files(const RunConfig& run) {
-  if (run.mask.empty() && run.points.empty() && run.format.empty() && run.add_noise == 0) return;
-  throw UsageError(
-      "run.mask, run.points, run.format and run.add_noise are for the command line; leave them "
-      "out");
+  struct Refusal {
+    bool given;
+    const char *key, *remedy;
+  };
+  for (const Refusal& refusal : std::initializer_list<Refusal>{
+           {run.fps != 0, "fps", "give each frame its time"},
+           {!run.size.empty(), "size", "a frame says its size itself"},
+           {!run.format.empty(), "format", "a frame says the type of its pixels itself"},
+           {!run.mask.empty(), "mask", "set pixels to be ignored to NaN in float frames"},
+           {!run.points.empty(), "points", "push the points"},
+           {run.add_noise != 0, "add_noise", "add noise before pushing"}}) {
+    if (refusal.given) {
+      throw ConfigError(std::string("run.") + refusal.key +
+                        " has no effect on frames that are pushed: " + refusal.remedy);
+    }
+  }
+}
+
+bool has_full_key(const ConfigSection& section, std::string_view key) {
+  return std::ranges::any_of(section.fields(), [&](const ConfigField& field) {
+    return section.name() + '.' + field.key == key;
+  });
+}
+
+bool has_full_key(std::span<const ConfigSection> sections, std::string_view key) {
+  return std::ranges::any_of(sections, [&](const auto& s) { return has_full_key(s, key); });
+}
+
+bool names_trackers(const Setting& setting) {
+  return setting.key == "tracker" || setting.key == "run.tracker";
+}
+
+const std::string& profile_of(const Setting& setting) {
+  if (const auto* name = std::get_if<std::string>(&setting.value)) return *name;
+  throw ConfigError("profile must be the name of one, in quotes");
 }
 
 }  // namespace
@@ -51,7 +84,7 @@ std::vector<std::string> trackers_of(const RunConfig& run) {
   std::vector<std::string> names;
   for (std::string name; stream >> name;) {
     if (std::ranges::find(names, name) != names.end()) {
-      throw UsageError("tracker " + name + " is given twice; name each once");
+      throw ConfigError("tracker " + name + " is given twice; name each once");
     }
     names.push_back(name);
   }
@@ -91,6 +124,30 @@ std::vector<ConfigSection> used_sections(std::span<const ConfigSection> all,
   return used;
 }
 
+std::vector<ConfigSection> sections_with(std::string_view key, std::span<const ConfigSection> all) {
+  const RunConfig run = section_named(all, "run").as<RunConfig>();
+  std::vector<ConfigSection> read = used_sections(all, trackers_of(run));
+  if (has_full_key(all, key) && !has_full_key(read, key)) {
+    throw ConfigError(std::string(key) + " has no effect: a run with tracker " +
+                      quoted(run.tracker) + " does not read it; leave it out");
+  }
+  return read;
+}
+
+void apply_settings(const Settings& settings, std::span<ConfigSection> all) {
+  for (const Setting& setting : settings) {
+    if (names_trackers(setting)) apply_value("run.tracker", setting.value, all);
+  }
+  for (const Setting& setting : settings) {
+    if (setting.key == "profile") apply_profile(profile_of(setting), all);
+  }
+  for (const Setting& setting : settings) {
+    if (names_trackers(setting) || setting.key == "profile") continue;
+    std::vector<ConfigSection> read = sections_with(setting.key, all);
+    apply_value(setting.key, setting.value, read);
+  }
+}
+
 void add_trackers(Scheduler& scheduler, std::span<const ConfigSection> sections,
                   const Device& device) {
   const RunConfig run = section_named(sections, "run").as<RunConfig>();
@@ -119,15 +176,29 @@ std::string settings_of_results(std::span<const ConfigSection> sections, const R
 Scheduler pushed_frames_scheduler(std::span<const ConfigSection> sections) {
   const RunConfig run = section_named(sections, "run").as<RunConfig>();
   refuse_what_reads_files(run);
+  if (trackers_of(run).empty()) {
+    throw ConfigError("no tracker is named; name one, for example mm-phd");
+  }
   const Device device = Device::named(run.device, run.threads);
-  Scheduler scheduler(device,
-                      FramePreparer(section_named(sections, "frames").as<FramesConfig>(), device),
+  const FramesConfig frames = section_named(sections, "frames").as<FramesConfig>();
+  Scheduler scheduler(device, FramePreparer(frames, device),
                       section_named(sections, "points").as<PointsConfig>());
+  scheduler.prime(frames.background_prime);
   scheduler.keep(run.keep);
   add_trackers(scheduler, sections, device);
   scheduler.set_settings(settings_of_results(sections, run));
   return scheduler;
 }
+
+Scheduler scheduler_of(std::string_view trackers, const Settings& settings) {
+  std::vector<ConfigSection> sections = all_sections();
+  apply_value("run.tracker", std::string(trackers), sections);
+  apply_settings(settings, sections);
+  return pushed_frames_scheduler(sections);
+}
+
+Scheduler::Scheduler(std::string_view trackers, const Settings& settings)
+    : Scheduler(scheduler_of(trackers, settings)) {}
 
 std::string bare_toml(std::span<const ConfigSection> sections) {
   std::string text;
