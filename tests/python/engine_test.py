@@ -30,6 +30,43 @@ def test_poll_gives_the_frames_in_order_with_their_tracks():
     assert (engine.pushed, engine.dropped) == (FRAMES, 0)
 
 
+def test_with_and_iteration_lose_no_frame():
+    seen = []
+    with glint.Engine("smc-phd") as engine:
+        for number, frame in enumerate(clip()):
+            engine.push(frame, number)
+            while (result := engine.poll()) is not None:
+                seen.append(result.frame)
+    seen += [result.frame for result in engine]
+    assert seen == list(range(FRAMES))
+    assert list(engine) == []
+    with pytest.raises(RuntimeError):
+        engine.push(picture(0), 0)
+
+
+def test_iteration_waits_for_the_frames_pushed_so_far():
+    engine = glint.Engine("smc-phd")
+    for number in range(5):
+        engine.push(picture(number), number)
+    assert [result.frame for result in engine] == list(range(5))
+    engine.push(picture(5), 5)
+    assert engine.poll(timeout=60).frame == 5
+    assert engine.poll(timeout=0.01) is None
+
+
+def test_an_error_in_the_block_is_not_hidden():
+    with pytest.raises(ZeroDivisionError), glint.Engine("smc-phd") as engine:
+        engine.push(picture(0), 0)
+        1 / 0
+
+
+def test_rows_that_overlap_are_copied():
+    flat = np.broadcast_to(picture(0)[:1], picture(0).shape)
+    assert flat.strides[0] == 0
+    expected = glint.track([np.ascontiguousarray(flat)] * 3, tracker="smc-phd")
+    assert glint.track([flat] * 3, tracker="smc-phd").tobytes() == expected.tobytes()
+
+
 def test_tracks_follow_the_target():
     tracks = glint.track(clip(), tracker="mm-phd")
     last = tracks[tracks["frame"] == FRAMES - 1]

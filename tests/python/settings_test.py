@@ -64,7 +64,10 @@ def test_the_default_config_changes_nothing():
         ({"profile": "X"}, "choose one of P, L"),
         ({"config": "[run]\nsed = 1\n"}, "config:2: unknown key run.sed"),
         ({"config": "nonsense"}, "config:1"),
-        ({"mask": "mask.png"}, "for the command line"),
+        ({"mask": "mask.png"}, "run.mask has no effect on frames that are pushed"),
+        ({"size": "640x512"}, "a frame says its size itself"),
+        ({"fps": 25}, "give each frame its time"),
+        ({"trackers.viterbi.window": 5}, "a run with tracker \"mm-phd\" does not read it"),
         ({"device": "abacus"}, "abacus"),
     ],
 )
