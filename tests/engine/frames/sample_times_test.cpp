@@ -28,5 +28,14 @@ TEST(SampleTimes, KeepsAllOfAYoungStreamInView) {
   }
 }
 
+TEST(SampleTimes, AFullWindowLosesTheInnerSampleWhoseNeighboursAreClosest) {
+  SampleTimes times(4, 10);
+  for (const int t : {0, 5, 6, 7}) times.insert(t);
+  EXPECT_EQ(times.insert(20), 2);  // 6, between 5 and 7
+  EXPECT_EQ(times.insert(22), 1);  // 5, between 0 and 7
+  EXPECT_EQ(times.insert(39), 2);  // 20, between 7 and 22
+  EXPECT_EQ(times.insert(40), 0);  // 0, older than the window of 40 frames
+}
+
 }  // namespace
 }  // namespace glint
