@@ -89,7 +89,7 @@ void PlainPda::update(Target& target, const std::vector<Point>& gated, double th
     const double share = target.bank.probability.dot(beta.col(static_cast<Index>(i) + 1));
     own += share, amplitude += share * static_cast<double>(gated[i].amplitude);
   }
-  if (own > 0) target.amplitude.learn(amplitude / own, own);
+  if (own > 0) target.amplitude.update(amplitude / own, own);
 }
 
 }  // namespace glint::bench

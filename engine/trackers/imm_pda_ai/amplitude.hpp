@@ -8,8 +8,8 @@
 
 namespace glint {
 
-/// What the amplitude a [sigmas] of a point that exceeds a threshold says of its origin: the log
-/// ratio of its density for the target to that for clutter, both given that they exceed it.
+/// Densities of the amplitude [sigma] of points that exceed a threshold. They tell targets and
+/// clutter apart by the log ratio of the two densities, both given that the threshold is exceeded.
 enum class AmplitudeModel { none, rayleigh, gaussian };
 
 inline AmplitudeModel amplitude_model(const std::string& name) {
@@ -24,14 +24,14 @@ inline double log_normal_tail(double x) {
   return -x * x / 2 - std::log(x + 1 / (x + 2 / x)) - std::log(2 * std::numbers::pi) / 2;
 }
 
-/// A target's amplitude as it was so far.
+/// The running mean of a target's amplitude.
 class TargetAmplitude {
  public:
   TargetAmplitude() = default;
   explicit TargetAmplitude(double first) : mean_(first) {}
   double mean() const { return mean_; }
-  /// The next amplitude, with the probability that it was the target's own.
-  void learn(double amplitude, double probability) {
+  /// The next amplitude [sigma], with the probability that it is the target's own.
+  void update(double amplitude, double probability) {
     mean_ += 0.2 * probability * (amplitude - mean_);
   }
   double log_ratio(AmplitudeModel model, double amplitude, double threshold) const {

@@ -108,7 +108,7 @@ void ImmPdaAi::update_life(Track& track, const StepTime& at) const {
   }
   if (own > 0) {
     TargetAmplitude mean(track.amplitude);
-    mean.learn(amplitude / own, own);
+    mean.update(amplitude / own, own);
     track.amplitude = mean.mean();
   }
   const bool seen = own >= 0.5;

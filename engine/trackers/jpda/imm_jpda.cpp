@@ -9,14 +9,14 @@
 namespace glint {
 namespace {
 
-/// Tracks that are not confirmed are many and short: for them each scan stands alone.
+/// `scans` of the window: tentative tracks are many and short, and for them each scan stands alone.
 ImmWindowConfig window_config(const ImmJpdaConfig& config, int scans) {
   ImmWindowConfig window;
   window.window = scans;
   if (config.reading == "restart") window.reading = WindowReading::restart;
   if (config.reading == "sliding") window.reading = WindowReading::sliding;
   window.detection = config.detection, window.gate = config.gate;
-  if (config.linearisation == "ukf") window.linearisation = Linearisation::chords;
+  if (config.linearisation == "ukf") window.linearisation = Linearisation::unscented;
   if (config.clutter == "any") window.clutter = JpdaClutter::Number::any;
   return window;
 }
@@ -54,17 +54,17 @@ void ImmJpda::TrackSet::remove(std::size_t i) {
   tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
-/// Tracks that are not confirmed get the points that the confirmed ones leave.
+/// Tentative tracks get the points that the confirmed ones leave.
 void ImmJpda::step(const Scan& scan, TrackLog& log) {
   if (!clock_.started()) log.set_mode_names(imm_jpda_modes(config_));
   const StepTime at = clock_.tick(scan);
   elapsed_ = config_.clock == "frames" ? at.step : scan.time - std::exchange(last_time_, scan.time);
-  take_points(scan);
+  read_points(scan);
   offered_.clear();
   for (std::uint32_t j = 0; j < points_.positions.size(); ++j) offered_.push_back(j);
-  follow(confirmed_, offered_, at);
+  associate(confirmed_, at);
   std::erase_if(offered_, [&](std::uint32_t j) { return !points_.free(j); });
-  follow(tentative_, offered_, at);
+  associate(tentative_, at);
   end_duplicates();
   start_known(at);
   start_tracks(at);
@@ -73,21 +73,20 @@ void ImmJpda::step(const Scan& scan, TrackLog& log) {
   move_confirmed();
 }
 
-void ImmJpda::take_points(const Scan& scan) {
+void ImmJpda::read_points(const Scan& scan) {
   place_ << scan.sensor_x, scan.sensor_y;
   points_.take(scan);
   density_ = config_.clutter_density > 0 ? config_.clutter_density
                                          : points_.false_density(confirmed_.tracks.size());
 }
 
-/// `points`: numbers of those that the set may have.
-void ImmJpda::follow(TrackSet& set, std::vector<std::uint32_t>& points, const StepTime& at) {
+void ImmJpda::associate(TrackSet& set, const StepTime& at) {
   if (set.tracks.empty() && config_.reading != "restart") return;
-  seen_.clear();
-  for (const std::uint32_t j : points) seen_.push_back(points_.positions[j]);
-  const MultiscanReport report = set.window.step(seen_, place_, density_, elapsed_);
+  positions_.clear();
+  for (const std::uint32_t j : offered_) positions_.push_back(points_.positions[j]);
+  const MultiscanReport report = set.window.step(positions_, place_, density_, elapsed_);
   count(report, &set == &confirmed_ && config_.window > 1);
-  update(set, points, at);
+  update(set, at);
 }
 
 void ImmJpda::count(const MultiscanReport& report, bool windowed) {
@@ -96,26 +95,26 @@ void ImmJpda::count(const MultiscanReport& report, bool windowed) {
   largest_ = std::max(largest_, report.scan.largest);
 }
 
-void ImmJpda::update(TrackSet& set, std::span<const std::uint32_t> points, const StepTime& at) {
+void ImmJpda::update(TrackSet& set, const StepTime& at) {
   for (std::size_t i = 0; i < set.tracks.size(); ++i) {
     PointTrack& track = set.tracks[i];
     track.state = set.window.estimate(i).combined();
     const double missed = set.window.missed(i);
     double amplitude = 0;
     for (std::size_t k = 0; k < set.window.gated(i).size(); ++k) {
-      const std::uint32_t j = points[set.window.gated(i)[k]];
+      const std::uint32_t j = offered_[set.window.gated(i)[k]];
       const double share = set.window.shares(i)[k];
       points_.claimed[j] += share, amplitude += share * points_.amplitudes[j];
     }
     const bool seen = missed < 0.5;
     if (seen) track.amplitude = amplitude / (1 - missed), track.last_seen = at.frame;
-    // Of the target's points: (1 - P_D) / missed is their likelihood over that of clutter alone.
+    // By Bayes' rule, the likelihood of its points over that of clutter alone.
     const double ratio = (1 - config_.detection) / std::max(missed, 1e-12);
     track.life.see(config_.life, seen, ratio, at.step);
   }
 }
 
-/// Of tracks on one target the older goes on, the confirmed one before the tentative.
+/// Of two tracks on one target the tentative one ends, or the younger.
 void ImmJpda::end_duplicates() {
   const auto beside = [&](std::span<const PointTrack> older, const PointTrack& track) {
     return std::ranges::any_of(older, [&](const PointTrack& other) {
@@ -155,7 +154,7 @@ void ImmJpda::add(TrackSet& set, const Gaussian<4>& state, double amplitude, con
           imm_jpda_bank(config_, state));
 }
 
-bool ImmJpda::crowded(const Eigen::Vector2d& position) const {
+bool ImmJpda::near_a_track(const Eigen::Vector2d& position) const {
   const auto near = [&](const PointTrack& track) {
     return track.near(position, config_.separation);
   };
@@ -163,7 +162,7 @@ bool ImmJpda::crowded(const Eigen::Vector2d& position) const {
          std::ranges::any_of(tentative_.tracks, near);
 }
 
-/// From two points in a row, which tell the velocity as well as they tell the positions.
+/// From points of two scans in a row; the velocity is as uncertain as their positions make it.
 void ImmJpda::start_tracks(const StepTime& at) {
   if (!config_.initiate) return;
   const auto pairs = starts_.next(points_, config_.start_amplitude, config_.speed_max * elapsed_);
@@ -171,7 +170,7 @@ void ImmJpda::start_tracks(const StepTime& at) {
   Eigen::Matrix2d axis;  // of position and velocity, in units of a position's covariance
   axis << 1, 1 / elapsed_, 1 / elapsed_, 2 / (elapsed_ * elapsed_);
   for (const TwoPointStart& pair : pairs) {
-    if (crowded(pair.now.position)) continue;
+    if (near_a_track(pair.now.position)) continue;
     const Eigen::Vector2d velocity = (pair.now.position - pair.before.position) / elapsed_;
     Gaussian<4> state;
     state.mean << pair.now.position.x(), velocity.x(), pair.now.position.y(), velocity.y();
@@ -181,7 +180,7 @@ void ImmJpda::start_tracks(const StepTime& at) {
   }
 }
 
-/// Lets the dead go, and those that were confirmed join the confirmed.
+/// Removes the tracks that have ended; tentative ones that are confirmed now change sets.
 void ImmJpda::move_confirmed() {
   for (TrackSet* set : {&confirmed_, &tentative_}) {
     for (std::size_t i = set->tracks.size(); i-- > 0;) {

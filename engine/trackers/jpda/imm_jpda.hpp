@@ -52,13 +52,13 @@ struct ImmMscanJpdaConfig : ImmJpdaConfig {
 
 /// Names of the models, in order.
 std::vector<std::string> imm_jpda_modes(const ImmJpdaConfig& config);
-/// Models that all believe `state`, [x vx y vy]. An acceleration is 0 give or take that of the
-/// model.
+/// A bank of these models, all of them at `state`, [x vx y vy]. Accelerations are 0, with the
+/// standard deviation of the model's noise.
 Imm imm_jpda_bank(const ImmJpdaConfig& config, const Gaussian<4>& state);
 
 /// Interacting multiple models with joint probabilistic data association over one scan or a window
 /// of scans, a tracker of points: P-JPDA with the corrections of docs/trackers/imm-jpda.md. Starts
-/// and ends its tracks by itself unless told otherwise.
+/// and ends its tracks by itself, unless its settings say otherwise.
 class ImmJpda : public TrackerOf<ImmJpda> {
  public:
   ImmJpda(const ImmJpdaConfig& config, const Device& device, std::uint64_t seed);
@@ -90,16 +90,16 @@ class ImmJpda : public TrackerOf<ImmJpda> {
     }
   };
 
-  void take_points(const Scan& scan);
-  void follow(TrackSet& set, std::vector<std::uint32_t>& points, const StepTime& at);
+  void read_points(const Scan& scan);
+  void associate(TrackSet& set, const StepTime& at);
   void count(const MultiscanReport& report, bool windowed);
-  void update(TrackSet& set, std::span<const std::uint32_t> points, const StepTime& at);
+  void update(TrackSet& set, const StepTime& at);
   void end_duplicates();
   void move_confirmed();
   void start_known(const StepTime& at);
   void start_tracks(const StepTime& at);
   void add(TrackSet& set, const Gaussian<4>& state, double amplitude, const StepTime& at);
-  bool crowded(const Eigen::Vector2d& position) const;
+  bool near_a_track(const Eigen::Vector2d& position) const;
   void report(TrackSet& set, const StepTime& at, TrackLog& log);
 
   ImmJpdaConfig config_;
@@ -114,9 +114,9 @@ class ImmJpda : public TrackerOf<ImmJpda> {
   // Of the scan at hand.
   Eigen::Vector2d place_;  // of the sensor
   ScanPoints points_;
-  double density_ = 0;                  // of false points [1/px^2]
-  std::vector<std::uint32_t> offered_;  // numbers of the points that a set may have
-  std::vector<Eigen::Vector2d> seen_;
+  double density_ = 0;                      // of false points [1/px^2]
+  std::vector<std::uint32_t> offered_;      // numbers of the points that the set at hand may have
+  std::vector<Eigen::Vector2d> positions_;  // of these
   TwoPointStarts starts_;
 };
 

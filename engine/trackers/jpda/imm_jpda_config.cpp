@@ -24,7 +24,7 @@ void describe_association(FieldList& f, ImmJpdaConfig& c) {
   f("range_sd", c.range_sd, 1e-6, 1e6, "px", "spread of a measured range");
   f("azimuth_sd", c.azimuth_sd, 1e-9, 3.2, "rad", "spread of a measured azimuth");
   f("linearisation", c.linearisation, {"ekf", "ukf"},
-    "of range and azimuth: by the tangent at the prediction, or by chords over its spread");
+    "of range and azimuth: extended or unscented Kalman filter");
   f("gate", c.gate, 0.1, 1000, "", "squared distance of a point in sigmas; 13.8 holds 99.9 %");
   f("detection", c.detection, 0.01, 0.9999, "", "probability that a target gives a point");
   f("clutter", c.clutter, {"poisson", "any"},

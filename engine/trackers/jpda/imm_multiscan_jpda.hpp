@@ -13,6 +13,7 @@
 #include "glint/engine/trackers/jpda/hypothesis_mixture.hpp"
 #include "glint/engine/trackers/jpda/hypothesis_updates.hpp"
 #include "glint/engine/trackers/jpda/imm_window_config.hpp"
+#include "glint/engine/trackers/jpda/index_range.hpp"
 #include "glint/engine/trackers/jpda/multiscan_jpda.hpp"
 #include "glint/engine/trackers/jpda/sensor_scan.hpp"
 #include "glint/engine/trackers/jpda/validation_gate.hpp"
@@ -64,22 +65,9 @@ class ImmMultiscanJpda {
   void require_alike(const Bank& bank) const;
 
  private:
-  /// Part of an array that holds those of all targets: each array then has the room of the largest
-  /// scan, which grows little in time, and not that of each target's largest.
-  struct Range {
-    std::size_t first = 0, count = 0;
-    template <class T>
-    std::span<const T> of(const std::vector<T>& all) const {
-      return std::span(all).subspan(first, count);
-    }
-    template <class Self>
-    static auto fields(Self& s) {
-      return std::tie(s.first, s.count);
-    }
-  };
   struct Target {
     Bank estimate;
-    Range hypotheses{};
+    IndexRange hypotheses{};
     template <class Self>
     static auto fields(Self& s) {
       return std::tie(s.estimate, s.hypotheses);
@@ -87,8 +75,8 @@ class ImmMultiscanJpda {
   };
   /// A target and the points of the last scan.
   struct Association {
-    Range gate{};        // in gated_ and shares_
-    Range log_weight{};  // by hypothesis and option
+    IndexRange gate{};        // in gated_ and shares_
+    IndexRange log_weight{};  // by hypothesis and option
     double missed = 1;
   };
 
@@ -138,7 +126,7 @@ void ImmMultiscanJpda<Sensor>::add(const Bank& bank) {
 
 template <class Sensor>
 void ImmMultiscanJpda<Sensor>::remove(std::size_t target) {
-  const Range gone = targets_[target].hypotheses;
+  const IndexRange gone = targets_[target].hypotheses;
   targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(target));
   const auto first = hypotheses_.begin() + static_cast<std::ptrdiff_t>(gone.first);
   hypotheses_.erase(first, first + static_cast<std::ptrdiff_t>(gone.count));
@@ -189,7 +177,7 @@ double ImmMultiscanJpda<Sensor>::validate(std::size_t target, const Scan& scan) 
   for (const auto& expected : targets_[target].hypotheses.of(expected_)) {
     gate_.add(expected, scan.points);
   }
-  Range& gate = associations_[target].gate;
+  IndexRange& gate = associations_[target].gate;
   gate.first = gated_.size();
   for (std::uint32_t i = 0; i < scan.points.size(); ++i) {
     if (gate_.holds(i)) gated_.push_back(i);
@@ -201,7 +189,7 @@ double ImmMultiscanJpda<Sensor>::validate(std::size_t target, const Scan& scan) 
 template <class Sensor>
 void ImmMultiscanJpda<Sensor>::update(std::size_t target, const Scan& scan) {
   Association& association = associations_[target];
-  const Range& own = targets_[target].hypotheses;
+  const IndexRange& own = targets_[target].hypotheses;
   association.log_weight.first = log_weight_.size();
   for (std::size_t h = own.first; h < own.first + own.count; ++h) {
     updates_.add(hypotheses_[h].bank, expected_[h], scan.points, association.gate.of(gated_),
@@ -216,7 +204,7 @@ void ImmMultiscanJpda<Sensor>::estimate_target(std::size_t target) {
   Association& association = associations_[target];
   const auto posterior = jpda_.posterior(target);
   const std::size_t options = association.gate.count + 1;
-  const auto shares = std::span(shares_).subspan(association.gate.first, association.gate.count);
+  const std::span<double> shares = association.gate.of(shares_);
   association.missed = 0, branches_.clear();
   for (std::size_t i = 0; i < posterior.size(); ++i) {
     const std::size_t option = i % options;
@@ -233,7 +221,7 @@ void ImmMultiscanJpda<Sensor>::advance() {
   merged_.clear();
   for (auto& hypothesis : hypotheses_) hypothesis.history.keep_newest(memory_ - 1);
   for (const Target& target : targets_) {
-    number_histories(target.hypotheses.of(hypotheses_), merged_);
+    number_histories<Sensor::kAxes>(target.hypotheses.of(hypotheses_), merged_);
   }
   jpda_.advance(merged_, memory_);
   next_.clear();
@@ -244,7 +232,7 @@ void ImmMultiscanJpda<Sensor>::advance() {
 /// One hypothesis in place of those with the same history and the same option.
 template <class Sensor>
 void ImmMultiscanJpda<Sensor>::merge(std::size_t target, std::span<const std::uint32_t> merged) {
-  Range& own = targets_[target].hypotheses;
+  IndexRange& own = targets_[target].hypotheses;
   const auto posterior = jpda_.posterior(target);
   const std::size_t first = next_.size(), options = associations_[target].gate.count + 1;
   for (const MultiscanJpda::Child& child : jpda_.children(target)) {
@@ -283,7 +271,7 @@ void ImmMultiscanJpda<Sensor>::restored() const {
   std::size_t first = 0;
   require_bytes(jpda_.targets() == targets(), "targets and hypotheses do not fit");
   for (std::size_t t = 0; t < targets(); ++t) {
-    const Range& own = targets_[t].hypotheses;
+    const IndexRange& own = targets_[t].hypotheses;
     require_bytes(own.first == first && own.count == jpda_.hypotheses(t),
                   "targets and hypotheses do not fit");
     first += own.count;

@@ -12,8 +12,9 @@
 namespace glint {
 
 /// Targets followed together, each by a bank of motion models, with joint probabilistic data
-/// association over one scan or a window of scans: P-JPDA section 4, whichever way the window is
-/// read. The library has those of sensors of the plane; whoever uses another one compiles it.
+/// association over one scan or a window of scans: P-JPDA section 4, for all ways of
+/// reading the window. The library has it for the sensors of the plane; code that uses another
+/// sensor compiles its own.
 template <class Sensor>
 class ImmWindow {
  public:

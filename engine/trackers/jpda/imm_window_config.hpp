@@ -8,7 +8,7 @@ namespace glint {
 
 /// How a window of several scans is used (docs/trackers/imm-jpda.md).
 enum class WindowReading {
-  restart,  ///< A: gone through anew at every scan, from the estimate before it; P-JPDA as printed
+  restart,  ///< A: all scans are filtered anew at every scan, from the estimate before; as printed
   sliding,  ///< C: weighted by what was likely in all earlier scans; the oldest scan is merged
   best,     ///< C*: sliding, and only the best permutation of each set of targets and points counts
 };
@@ -20,12 +20,12 @@ struct ImmWindowConfig {
   double detection = 0.9;  ///< P_D
   double gate = 13.8;      ///< squared distance, gamma; 13.8 holds 99.9 % of two numbers
   JpdaClutter::Number clutter = JpdaClutter::Number::poisson;
-  Linearisation linearisation = Linearisation::tangent;  ///< of a measurement that is not linear
+  Linearisation linearisation = Linearisation::extended;  ///< of a measurement that is not linear
 };
 
 /// Of the joint events of the window.
 inline MultiscanSettings multiscan_settings(const ImmWindowConfig& config) {
-  if (config.window == 1) return MultiscanSettings::apart();
+  if (config.window == 1) return MultiscanSettings::single_scan();
   MultiscanSettings settings;
   settings.best_permutation = config.reading == WindowReading::best;
   return settings;

@@ -78,7 +78,7 @@ struct JointWorkspace {
 
 /// Into `both`: all pairs of events of two groups that have nothing to do with each other.
 void product(const JointView& a, const JointView& b, JointEvents& both, JointWorkspace& memory);
-/// Into `some`: what the events say of some of the targets; `columns`, rising, number them in the
+/// Into `some`: the events of some of the targets alone; `columns`, rising, number them in the
 /// group.
 void project(const JointView& events, std::span<const std::size_t> columns, JointEvents& some,
              JointWorkspace& memory);

@@ -11,12 +11,12 @@
 namespace glint {
 namespace {
 
-constexpr double kHair = 1e-9;  // [length]
+constexpr double kLeastRange = 1e-9;  // [length]
 
-double away(double distance) { return std::max(distance, kHair); }
+double at_least_range(double range) { return std::max(range, kLeastRange); }
 
 template <class Sensor>
-Gaussian<Sensor::kAxes> spread_of(const Sensor& sensor, const Place<Sensor>& position) {
+Gaussian<Sensor::kAxes> position_at(const Sensor& sensor, const Place<Sensor>& position) {
   const Jacobian<Sensor> back = jacobian(sensor, position).inverse();
   Gaussian<Sensor::kAxes> result;
   result.mean = position;
@@ -40,7 +40,7 @@ Eigen::Vector3d expected_measurement(const RangeAzimuthElevation& sensor,
 
 Eigen::Matrix2d jacobian(const RangeAzimuth& sensor, const Eigen::Vector2d& position) {
   Eigen::Vector2d d = position - sensor.place;
-  if (d.norm() < kHair) d = {kHair, 0};
+  if (d.norm() < kLeastRange) d = {kLeastRange, 0};
   const double range = d.norm(), square = d.squaredNorm();
   return (Eigen::Matrix2d() << d.x() / range, d.y() / range,  //
           -d.y() / square, d.x() / square)
@@ -49,7 +49,7 @@ Eigen::Matrix2d jacobian(const RangeAzimuth& sensor, const Eigen::Vector2d& posi
 
 Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vector3d& position) {
   Eigen::Vector3d d = position - sensor.place;
-  if (d.head<2>().norm() < kHair) d.head<2>() = Eigen::Vector2d(kHair, 0);
+  if (d.head<2>().norm() < kLeastRange) d.head<2>() = Eigen::Vector2d(kLeastRange, 0);
   const double ground = d.head<2>().norm(), range = d.norm(), square = d.squaredNorm();
   return (Eigen::Matrix3d() << d.x() / range, d.y() / range, d.z() / range,  //
           -d.y() / (ground * ground), d.x() / (ground * ground), 0,          //
@@ -58,17 +58,18 @@ Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vecto
 }
 
 Gaussian<2> inverse_measurement(const RangeAzimuth& sensor, const Eigen::Vector2d& measurement) {
-  const double range = away(measurement(0)), azimuth = measurement(1);
-  return spread_of(sensor, sensor.place + range * Eigen::Vector2d(std::cos(azimuth),  //
-                                                                  std::sin(azimuth)));
+  const double range = at_least_range(measurement(0)), azimuth = measurement(1);
+  return position_at(sensor, sensor.place + range * Eigen::Vector2d(std::cos(azimuth),  //
+                                                                    std::sin(azimuth)));
 }
 
 Gaussian<3> inverse_measurement(const RangeAzimuthElevation& sensor,
                                 const Eigen::Vector3d& measurement) {
-  const double range = away(measurement(0)), azimuth = measurement(1), elevation = measurement(2);
+  const double range = at_least_range(measurement(0)), azimuth = measurement(1),
+               elevation = measurement(2);
   const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                                   std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-  return spread_of(sensor, sensor.place + range * direction);
+  return position_at(sensor, sensor.place + range * direction);
 }
 
 template PrincipalAxes<2> principal_axes<2>(const Eigen::Matrix2d& covariance);

@@ -8,8 +8,8 @@
 
 namespace glint {
 
-// What a sensor tells of a position, as a vector of kSize numbers; number kAzimuth of it is an
-// angle in (-pi, pi], -1: none. Azimuth turns from x towards y.
+// What a sensor measures of a position, as a vector of kSize numbers; number kAzimuth of it is an
+// angle in (-pi, pi], -1 if there is none. Azimuth turns from x towards y.
 
 /// The position itself, in the coordinates of the state.
 template <int Axes>
@@ -50,7 +50,7 @@ using Place = Eigen::Matrix<double, Sensor::kAxes, 1>;
 template <class Sensor>
 using Jacobian = Eigen::Matrix<double, Sensor::kSize, Sensor::kAxes>;
 
-/// Without noise.
+/// The measurement of a target at `position`, without noise.
 template <int Axes>
 Eigen::Matrix<double, Axes, 1> expected_measurement(
     const PositionSensor<Axes>&, const Eigen::Matrix<double, Axes, 1>& position) {
@@ -60,11 +60,12 @@ Eigen::Vector2d expected_measurement(const RangeAzimuth& sensor, const Eigen::Ve
 Eigen::Vector3d expected_measurement(const RangeAzimuthElevation& sensor,
                                      const Eigen::Vector3d& position);
 
-/// Finite everywhere: at the sensor, where there is no direction, as if a hair away from it.
+/// Finite everywhere: at the sensor itself, where there is no direction, as if 1e-9 away from it.
 Eigen::Matrix2d jacobian(const RangeAzimuth& sensor, const Eigen::Vector2d& position);
 Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vector3d& position);
 
-/// Where a measurement saw a target, to first order in the noise: what a track may start from.
+/// The position that a measurement belongs to, with its covariance to first order in the noise:
+/// what a track may start from.
 template <int Axes>
 Gaussian<Axes> inverse_measurement(const PositionSensor<Axes>& sensor,
                                    const Eigen::Matrix<double, Axes, 1>& measurement) {

@@ -8,10 +8,11 @@
 
 namespace glint {
 
-/// How a curved measurement is made linear: by its tangent at the predicted position (EKF), or by
-/// chords over the predicted spread (UKF), which keeps the mean and the covariance better where a
-/// far target's position is uncertain across the line of sight.
-enum class Linearisation { tangent, chords };
+/// How a measurement that is not linear is made so: by its derivative at the predicted position
+/// (extended Kalman filter), or by its values at points spread as the position is uncertain
+/// (unscented), which keeps mean and covariance better where a far target's position is uncertain
+/// across the line of sight.
+enum class Linearisation { extended, unscented };
 
 /// A measurement about a position: its mean and covariance without noise, and its derivative.
 template <class Sensor>
@@ -66,17 +67,17 @@ LinearMeasurement<Sensor> unscented(const Sensor& sensor, const Gaussian<Sensor:
 /// Of a state whose axes begin with the position.
 template <class Sensor, int N>
 MeasurementPrediction<N, Sensor::kSize, Sensor::kAzimuth> predict_measurement(
-    const Gaussian<N>& state, const Sensor& sensor, Linearisation how = Linearisation::tangent) {
+    const Gaussian<N>& state, const Sensor& sensor, Linearisation how = Linearisation::extended) {
   const Gaussian<Sensor::kAxes> position = position_of<Sensor::kAxes>(state);
   const LinearMeasurement<Sensor> linear =
-      how == Linearisation::tangent ? extended(sensor, position) : unscented(sensor, position);
+      how == Linearisation::extended ? extended(sensor, position) : unscented(sensor, position);
   return {linear.mean, linear.covariance + sensor.noise,
           position_columns<Sensor::kAxes>(state) * linear.jacobian.transpose()};
 }
 template <int Axes, int N>
 PositionPrediction<N, Axes> predict_measurement(const Gaussian<N>& state,
                                                 const PositionSensor<Axes>& sensor,
-                                                Linearisation = Linearisation::tangent) {
+                                                Linearisation = Linearisation::extended) {
   return predict_position<Axes>(state, sensor.noise);
 }
 

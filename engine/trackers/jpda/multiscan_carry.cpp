@@ -15,7 +15,7 @@ void MultiscanJpda::advance(std::span<const std::uint32_t> merged, int memory) {
     if (!cluster.independent) {
       carry(cluster, merged);
     } else {
-      for (const std::uint32_t t : cluster.before.targets) carry_apart(t, merged);
+      for (const std::uint32_t t : cluster.before.targets) carry_independent(t, merged);
     }
   }
   prior_.clear(), children_.clear();
@@ -35,8 +35,8 @@ void MultiscanJpda::bond(int memory) {
   }
 }
 
-/// The events before and of the scan become one list; those before that differ in nothing that is
-/// still told apart are one.
+/// The events before and of the scan become one list. Events before that differ only in scans that
+/// leave the window are one.
 void MultiscanJpda::carry(const Cluster& cluster, std::span<const std::uint32_t> merged) {
   const JointView& before = cluster.before;
   const ScanEvents::Group events = events_[cluster.events];
@@ -75,7 +75,7 @@ void MultiscanJpda::merge_before(const JointView& before, std::span<const std::u
   }
 }
 
-void MultiscanJpda::carry_apart(std::uint32_t target, std::span<const std::uint32_t> merged) {
+void MultiscanJpda::carry_independent(std::uint32_t target, std::span<const std::uint32_t> merged) {
   part_.begin(std::span(&target, 1));
   const auto options = static_cast<std::uint32_t>(scan_[target].options());
   for (std::size_t h = 0; h < hypotheses(target); ++h) {
@@ -116,7 +116,7 @@ void MultiscanJpda::split(JointEvents& events) {
 /// carried: groups that meet are multiplied.
 void MultiscanJpda::restored() const {
   require_bytes(children_.size() == prior_.size(), "hypotheses are not whole");
-  for (const Range& own : own_) {
+  for (const IndexRange& own : own_) {
     require_bytes(own.count > 0 && own.count <= settings_.events && own.first <= prior_.size() &&
                       own.count <= prior_.size() - own.first,
                   "a target has no such hypotheses");

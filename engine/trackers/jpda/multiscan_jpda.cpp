@@ -208,7 +208,7 @@ void MultiscanJpda::solve(Cluster& cluster, const JpdaClutter& clutter, Multisca
   cluster.independent = !(total > 0);
   if (cluster.independent) {
     ++report.independent;
-    return solve_apart(cluster);
+    return solve_independent(cluster);
   }
   add_posterior(cluster, total);
 }
@@ -229,7 +229,7 @@ void MultiscanJpda::add_posterior(const Cluster& cluster, double total) {
   }
 }
 
-void MultiscanJpda::solve_apart(const Cluster& cluster) {
+void MultiscanJpda::solve_independent(const Cluster& cluster) {
   for (const std::uint32_t t : cluster.before.targets) {
     const std::size_t options = scan_[t].options();
     for (std::size_t h = 0; h < hypotheses(t); ++h) {

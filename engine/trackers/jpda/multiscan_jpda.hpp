@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "glint/engine/trackers/jpda/index_range.hpp"
 #include "glint/engine/trackers/jpda/joint_events.hpp"
 #include "glint/engine/trackers/jpda/jpda.hpp"
 #include "glint/engine/trackers/jpda/scan_events.hpp"
@@ -15,15 +16,15 @@ namespace glint {
 
 struct MultiscanSettings {
   /// Of the joint events that serve the same targets with the same points, only the likeliest
-  /// counts (JPDA*: Blom and Bloem 2000), so that two targets that once were one point do not for
-  /// ever share both.
+  /// counts (JPDA*: Blom and Bloem 2000). Otherwise two targets that once shared one point share
+  /// both of theirs for ever.
   bool best_permutation = true;
   std::size_t work = std::size_t{1} << 16;  ///< most joint events of a cluster and scan
   std::size_t events = 256;                 ///< most that a group carries to the next scan
   double least = 1e-6;                      ///< probability below which an event is not carried
 
-  /// No list at all: each scan stands alone, summed by Jpda.
-  static MultiscanSettings apart() {
+  /// No lists of joint events: each scan stands alone, summed by Jpda.
+  static MultiscanSettings single_scan() {
     MultiscanSettings settings;
     settings.best_permutation = false, settings.work = 0;
     return settings;
@@ -51,7 +52,7 @@ class MultiscanJpda {
   explicit MultiscanJpda(const MultiscanSettings& settings) : settings_(settings) {}
 
   void clear();
-  /// A target more, with one hypothesis and apart from all others.
+  /// A target more, with one hypothesis, independent of all others.
   void add();
   void remove(std::size_t target);
   std::size_t targets() const { return own_.size(); }
@@ -80,9 +81,7 @@ class MultiscanJpda {
   /// when hypotheses that differ in scans that leave the window are one; `memory`: scans for
   /// which targets stay together that shared a point, window - 1.
   void advance(std::span<const std::uint32_t> merged, int memory);
-  std::span<const Child> children(std::size_t target) const {
-    return std::span(children_).subspan(own_[target].first, own_[target].count);
-  }
+  std::span<const Child> children(std::size_t target) const { return own_[target].of(children_); }
 
   template <class Self>
   static auto fields(Self& s) {
@@ -105,16 +104,7 @@ class MultiscanJpda {
     std::size_t events = 0;    ///< of the scan: number of the group in events_
     bool independent = false;  ///< too many to be listed
   };
-  struct Range {
-    std::size_t first, count;
-    template <class Self>
-    static auto fields(Self& s) {
-      return std::tie(s.first, s.count);
-    }
-  };
-  std::span<double> prior(std::size_t target) {
-    return std::span(prior_).subspan(own_[target].first, own_[target].count);
-  }
+  std::span<double> prior(std::size_t target) { return own_[target].of(prior_); }
   std::uint32_t root(std::uint32_t target);
   void join(std::uint32_t a, std::uint32_t b);
   JpdaReport single_scan(const JpdaClutter& clutter);
@@ -124,17 +114,17 @@ class MultiscanJpda {
   ScanEvents::Factor factor(const Cluster& cluster, const JpdaClutter& clutter) const;
   void solve(Cluster& cluster, const JpdaClutter& clutter, MultiscanReport& report);
   void add_posterior(const Cluster& cluster, double total);
-  void solve_apart(const Cluster& cluster);
+  void solve_independent(const Cluster& cluster);
   void bond(int memory);
   void carry(const Cluster& cluster, std::span<const std::uint32_t> merged);
   void merge_before(const JointView& before, std::span<const std::uint32_t> merged);
-  void carry_apart(std::uint32_t target, std::span<const std::uint32_t> merged);
+  void carry_independent(std::uint32_t target, std::span<const std::uint32_t> merged);
   void split(JointEvents& events);
   void number_children(std::size_t group);
 
   MultiscanSettings settings_;
-  std::vector<Range> own_;     // by target: its hypotheses in prior_ and children_
-  std::vector<double> prior_;  // by hypothesis
+  std::vector<IndexRange> own_;  // by target: its hypotheses in prior_ and children_
+  std::vector<double> prior_;    // by hypothesis
   std::vector<Child> children_;
   JointGroups groups_;
   std::vector<Bond> bonds_;

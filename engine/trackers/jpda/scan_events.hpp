@@ -9,7 +9,7 @@
 
 namespace glint {
 
-/// A scan as a target sees it.
+/// The points of a scan that a target may have.
 struct TargetScan {
   std::span<const std::uint32_t> points;  ///< in its gate, each once
   /// By hypothesis of the target, then: none of the points, ln(1 - P_D); each of them,

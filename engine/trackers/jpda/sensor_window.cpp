@@ -8,74 +8,74 @@
 namespace glint {
 
 SensorWindow::SensorWindow(const ImmWindowConfig& config, const PointNoise& noise)
-    : measured_(Measured<PositionSensor<2>>{ImmWindow<PositionSensor<2>>(config), {}}) {
+    : window_(WithSensor<PositionSensor<2>>{ImmWindow<PositionSensor<2>>(config), {}}) {
   if (noise.polar) {
     RangeAzimuth sensor;
     sensor.noise.diagonal() << noise.range_sd * noise.range_sd, noise.azimuth_sd * noise.azimuth_sd;
-    measured_ = Measured<RangeAzimuth>{ImmWindow<RangeAzimuth>(config), sensor};
+    window_ = WithSensor<RangeAzimuth>{ImmWindow<RangeAzimuth>(config), sensor};
   } else {
-    std::get<0>(measured_).sensor.noise *= noise.variance;
+    std::get<0>(window_).sensor.noise *= noise.variance;
   }
 }
 
 void SensorWindow::add(const Imm& bank) {
-  std::visit([&](auto& m) { m.window.add(bank); }, measured_);
+  std::visit([&](auto& m) { m.window.add(bank); }, window_);
 }
 
 void SensorWindow::remove(std::size_t target) {
-  std::visit([&](auto& m) { m.window.remove(target); }, measured_);
+  std::visit([&](auto& m) { m.window.remove(target); }, window_);
 }
 
 MultiscanReport SensorWindow::step(std::span<const Eigen::Vector2d> points,
                                    const Eigen::Vector2d& place, double density, double elapsed) {
-  if (auto* positions = std::get_if<0>(&measured_)) {
+  if (auto* positions = std::get_if<0>(&window_)) {
     return positions->window.step(points, positions->sensor, density, elapsed);
   }
-  auto& [window, sensor] = std::get<1>(measured_);
+  auto& [window, sensor] = std::get<1>(window_);
   sensor.place = place;
-  seen_.clear();
+  measurements_.clear();
   double range = 0;
   for (const Eigen::Vector2d& point : points) {
-    seen_.push_back(expected_measurement(sensor, point));
-    range += seen_.back()(0);
+    measurements_.push_back(expected_measurement(sensor, point));
+    range += measurements_.back()(0);
   }
-  // A square pixel at range r is 1/r wide in azimuth; r of the points on the whole.
+  // At range r a square pixel is 1/r wide in azimuth: the density is scaled by the points' mean r.
   const double mean = points.empty() ? 1 : std::max(range / double(points.size()), 1e-6);
-  return window.step(seen_, sensor, density * mean, elapsed);
+  return window.step(measurements_, sensor, density * mean, elapsed);
 }
 
 const Imm& SensorWindow::estimate(std::size_t target) const {
   return std::visit([&](const auto& m) -> const Imm& { return m.window.estimate(target); },
-                    measured_);
+                    window_);
 }
 
 double SensorWindow::missed(std::size_t target) const {
-  return std::visit([&](const auto& m) { return m.window.missed(target); }, measured_);
+  return std::visit([&](const auto& m) { return m.window.missed(target); }, window_);
 }
 
 std::span<const std::uint32_t> SensorWindow::gated(std::size_t target) const {
-  return std::visit([&](const auto& m) { return m.window.gated(target); }, measured_);
+  return std::visit([&](const auto& m) { return m.window.gated(target); }, window_);
 }
 
 std::span<const double> SensorWindow::shares(std::size_t target) const {
-  return std::visit([&](const auto& m) { return m.window.shares(target); }, measured_);
+  return std::visit([&](const auto& m) { return m.window.shares(target); }, window_);
 }
 
 std::size_t SensorWindow::targets() const {
-  return std::visit([](const auto& m) { return m.window.targets(); }, measured_);
+  return std::visit([](const auto& m) { return m.window.targets(); }, window_);
 }
 
-// The sensor's place comes with every scan that is followed: noise_at() asks for the last one's.
+// The sensor's place comes with every scan, but noise_at() needs that of the last one.
 void SensorWindow::put_to(ByteWriter& to) const {
-  std::visit([&](const auto& m) { put_bytes(to, m.window), put_bytes(to, m.sensor); }, measured_);
+  std::visit([&](const auto& m) { put_bytes(to, m.window), put_bytes(to, m.sensor); }, window_);
 }
 
 void SensorWindow::take_from(ByteReader& from) {
-  std::visit([&](auto& m) { take_bytes(from, m.window), take_bytes(from, m.sensor); }, measured_);
+  std::visit([&](auto& m) { take_bytes(from, m.window), take_bytes(from, m.sensor); }, window_);
 }
 
 void SensorWindow::require_alike(const Imm& bank) const {
-  std::visit([&](const auto& m) { m.window.require_alike(bank); }, measured_);
+  std::visit([&](const auto& m) { m.window.require_alike(bank); }, window_);
 }
 
 Eigen::Matrix2d SensorWindow::noise_at(const Eigen::Vector2d& position) const {
@@ -83,7 +83,7 @@ Eigen::Matrix2d SensorWindow::noise_at(const Eigen::Vector2d& position) const {
       [&](const auto& m) {
         return inverse_measurement(m.sensor, expected_measurement(m.sensor, position)).covariance;
       },
-      measured_);
+      window_);
 }
 
 }  // namespace glint

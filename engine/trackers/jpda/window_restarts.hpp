@@ -10,8 +10,8 @@
 
 namespace glint {
 
-/// A window that is gone through anew at every scan, WindowReading::restart: keeps the scans of the
-/// window, and each target's estimate before the first of them that it was followed in.
+/// WindowReading::restart: all scans of the window are filtered anew at every scan. Keeps these
+/// scans, and each target's estimate before the first of them that it was followed in.
 template <class Sensor>
 class WindowRestarts {
  public:
@@ -29,8 +29,8 @@ class WindowRestarts {
   /// After the newest scan, or as it was added since.
   const Bank& estimate(std::size_t target) const { return estimates_[target].back(); }
 
-  /// Follows all targets through the scans of the window and the newest with `filter`, which need
-  /// not know anything before, and knows no targets afterwards.
+  /// Filters the scans of the window and the newest with `filter`, whose own targets are removed,
+  /// before and afterwards.
   MultiscanReport process(ImmMultiscanJpda<Sensor>& filter, const Scan& newest);
 
   template <class Self>

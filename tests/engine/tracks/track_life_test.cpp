@@ -15,13 +15,13 @@ constexpr HitLogic kLogic{.confirm_hits = 3, .confirm_window = 4, .halt_misses =
 /// c(onfirmed) or h(alted), up to the end.
 std::string lived(const HitLogic& logic, bool known, const std::string& seen) {
   TrackLife life(logic, known);
-  std::string said{"tch"[static_cast<int>(life.status())]};
+  std::string statuses{"tch"[static_cast<int>(life.status())]};
   for (const char mark : seen) {
     if (life.over()) break;
     life.see(logic, mark == 'x');
-    said += "tch"[static_cast<int>(life.status())];
+    statuses += "tch"[static_cast<int>(life.status())];
   }
-  return said;
+  return statuses;
 }
 
 TEST(TrackLifeByHits, CountsTheFirstPointAsAHit) {

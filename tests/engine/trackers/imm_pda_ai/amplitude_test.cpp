@@ -64,9 +64,9 @@ TEST(Amplitude, WhatLiesUnderTheThresholdCountsAsOnIt) {
 
 TEST(Amplitude, LearnsAFifthOfWhatIsCertain) {
   TargetAmplitude target(10);
-  target.learn(20, 1);
+  target.update(20, 1);
   EXPECT_DOUBLE_EQ(target.mean(), 12);
-  target.learn(22, 0.5);
+  target.update(22, 0.5);
   EXPECT_DOUBLE_EQ(target.mean(), 13);
 }
 

@@ -14,7 +14,7 @@ namespace {
 using Points = std::vector<Point>;
 constexpr float kBright = 8;  // [sigma]
 
-/// A tracker, what it said, and frames of 100x100 pixels to say it of.
+/// A tracker on frames of 100x100 pixels, and its log.
 struct Tracking {
   explicit Tracking(const ImmPdaAiConfig& config) : tracker(config, Device::serial(), 1) {}
   void step(const Points& points) {
@@ -71,13 +71,13 @@ TEST(ImmPdaAi, WithoutClutterIsAKalmanFilter) {
     const Eigen::Matrix<double, 4, 2> gain = p * h.transpose() * s.inverse();
     x += gain * (Eigen::Vector2d(z.x, z.y) - h * x);
     p = (Eigen::Matrix4d::Identity() - gain * h) * p;
-    const auto said = run.last();
-    ASSERT_EQ(said.size(), 1u);
-    EXPECT_NEAR(said[0].x, x(0), 1e-9);
-    EXPECT_NEAR(said[0].vx, x(1), 1e-9);
-    EXPECT_NEAR(said[0].y, x(2), 1e-9);
-    EXPECT_NEAR(said[0].vy, x(3), 1e-9);
-    EXPECT_NEAR(said[0].var_x, p(0, 0), 1e-9);
+    const auto reported = run.last();
+    ASSERT_EQ(reported.size(), 1u);
+    EXPECT_NEAR(reported[0].x, x(0), 1e-9);
+    EXPECT_NEAR(reported[0].vx, x(1), 1e-9);
+    EXPECT_NEAR(reported[0].y, x(2), 1e-9);
+    EXPECT_NEAR(reported[0].vy, x(3), 1e-9);
+    EXPECT_NEAR(reported[0].var_x, p(0, 0), 1e-9);
   }
 }
 
@@ -145,16 +145,16 @@ ImmPdaAiConfig life_config() {
   return c;
 }
 
-/// A still target, seen in the frames that are marked x; what was said of it by frame: t(entative),
+/// A still target, seen in the frames that are marked x; its reported status by frame: t(entative),
 /// c(onfirmed), h(alted), or - for nothing.
 std::string life(const ImmPdaAiConfig& config, const std::string& seen, float amplitude = kBright) {
   Tracking run(config);
-  std::string said;
+  std::string reported;
   for (const char mark : seen) {
     run.step(mark == 'x' ? Points{{50, 50, amplitude}} : Points{});
-    said += run.last().empty() ? '-' : "tch"[static_cast<int>(run.last()[0].status)];
+    reported += run.last().empty() ? '-' : "tch"[static_cast<int>(run.last()[0].status)];
   }
-  return said;
+  return reported;
 }
 
 TEST(ImmPdaAi, ConfirmsATrackSeenOftenEnoughInItsWindow) {

@@ -21,7 +21,7 @@ class HypothesisMixtureOfTwo : public testing::Test {
     for (const double x : {0.0, 8.0}) {
       const Imm bank = still_bank(x, {3, 15});
       hypotheses_.push_back({{}, bank});
-      updates_.add(bank, predict_measurements(bank, Sensor{}, Linearisation::tangent),
+      updates_.add(bank, predict_measurements(bank, Sensor{}, Linearisation::extended),
                    std::vector<Eigen::Vector2d>{{4, 0}}, std::vector<std::uint32_t>{0},
                    log_weight_);
     }

@@ -22,7 +22,7 @@ class HypothesisUpdatesOfTwo : public testing::Test {
   void SetUp() override {
     for (const double x : {0.0, 10.0}) {
       const Imm bank = still_bank(x, {3, 15});
-      const auto expected = predict_measurements(bank, Sensor{}, Linearisation::tangent);
+      const auto expected = predict_measurements(bank, Sensor{}, Linearisation::extended);
       updates_.add(bank, expected, points_, x == 0 ? near_ : far_, log_weight_);
     }
   }
@@ -73,7 +73,7 @@ TEST_F(HypothesisUpdatesOfTwo, BelieveTheModelThatExpectedThePoint) {
 TEST_F(HypothesisUpdatesOfTwo, AreForgottenWithTheScan) {
   updates_.clear();
   const Imm bank = still_bank(0, {3});
-  const auto expected = predict_measurements(bank, Sensor{}, Linearisation::tangent);
+  const auto expected = predict_measurements(bank, Sensor{}, Linearisation::extended);
   updates_.add(bank, expected, points_, far_, log_weight_);
   EXPECT_NEAR(updates_.belief<4>(0, 0, 0).mean(0), 0.75 * 8, 1e-12);
   EXPECT_NEAR(updates_.probability(0, 0)[0], 1, 1e-12);
@@ -90,7 +90,7 @@ TEST(HypothesisUpdates, MovesWhatTheModelHas) {
       staying(2, 1), {0.5, 0.5});
   HypothesisUpdates<Sensor> updates(kDetection);
   std::vector<double> log_weight;
-  updates.add(bank, predict_measurements(bank, Sensor{}, Linearisation::tangent),
+  updates.add(bank, predict_measurements(bank, Sensor{}, Linearisation::extended),
               std::vector<Eigen::Vector2d>{{2, 0}}, Numbers{0}, log_weight);
   const auto belief = updates.belief<6>(0, 0, 1);
   EXPECT_NEAR(belief.mean(1), 0.8 / 4 * 2, 1e-12);

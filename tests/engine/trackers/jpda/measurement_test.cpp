@@ -95,8 +95,8 @@ void expect_continuous(const Sensor& sensor, Linearisation how) {
 }
 
 TEST(Measurement, AzimuthGoesOnAcrossPi) {
-  expect_continuous(radar(), Linearisation::tangent);
-  expect_continuous(radar(), Linearisation::chords);
+  expect_continuous(radar(), Linearisation::extended);
+  expect_continuous(radar(), Linearisation::unscented);
 }
 
 TEST(Measurement, AssociationWrapsToo) {
@@ -136,8 +136,8 @@ TEST(Measurement, ChordsOfAShortSpreadAreTheTangent) {
   Gaussian<6> state;
   state.mean << 1000, 1, -700, 2, 300, 3;
   state.covariance *= 0.01;
-  const auto ekf = predict_measurement(state, papers_radar(), Linearisation::tangent);
-  const auto ukf = predict_measurement(state, papers_radar(), Linearisation::chords);
+  const auto ekf = predict_measurement(state, papers_radar(), Linearisation::extended);
+  const auto ukf = predict_measurement(state, papers_radar(), Linearisation::unscented);
   EXPECT_LT((ekf.mean - ukf.mean).norm(), 1e-4);
   EXPECT_LT((ekf.gain - ukf.gain).norm(), 1e-6 * ekf.gain.norm());
 }
@@ -146,17 +146,17 @@ TEST(Measurement, ChordsSeeHowRangeGrowsWithTheSpreadAcross) {
   Gaussian<4> state;
   state.mean << 100, 0, 0, 0;
   state.covariance.diagonal() << 1, 1, 400, 1;
-  const auto ukf = predict_measurement(state, RangeAzimuth{}, Linearisation::chords);
+  const auto ukf = predict_measurement(state, RangeAzimuth{}, Linearisation::unscented);
   // E range = 100 + 400 / (2 x 100) to second order; its variance 1 + 400^2 / (2 x 100^2).
   EXPECT_NEAR(ukf.mean(0), 102, 0.1);
   EXPECT_NEAR(ukf.covariance(0, 0) - 1, 1 + 8, 0.6);
-  const auto ekf = predict_measurement(state, RangeAzimuth{}, Linearisation::tangent);
+  const auto ekf = predict_measurement(state, RangeAzimuth{}, Linearisation::extended);
   EXPECT_NEAR(ekf.mean(0), 100, 1e-12);
   EXPECT_NEAR(ekf.covariance(0, 0) - 1, 1, 1e-12);
 }
 
 TEST(Measurement, ASingularStateIsNoTrouble) {
-  for (const Linearisation how : {Linearisation::tangent, Linearisation::chords}) {
+  for (const Linearisation how : {Linearisation::extended, Linearisation::unscented}) {
     Gaussian<4> state = at(50, 31, 0);
     state.covariance.setZero();
     predict(NearlyConstantVelocity{25}, state, 1);
@@ -169,7 +169,7 @@ TEST(Measurement, ASingularStateIsNoTrouble) {
 }
 
 TEST(Measurement, IsFiniteAtTheSensor) {
-  for (const Linearisation how : {Linearisation::tangent, Linearisation::chords}) {
+  for (const Linearisation how : {Linearisation::extended, Linearisation::unscented}) {
     const Gaussian<4> state = at(10, -20, 1);
     const auto expected = predict_measurement(state, radar(), how);
     EXPECT_TRUE(updated(state, expected, {1, 2}).mean.allFinite());
