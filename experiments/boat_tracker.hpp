@@ -8,7 +8,7 @@ namespace glint {
 struct JpdaReading {
   const char* name;
   int window;  ///< scans
-  const char* reading;
+  WindowReading reading;
 };
 
 /// For boats seen by a radar good to 5 m, in metres and seconds: two constant velocities, one that

@@ -21,10 +21,10 @@ constexpr double kSpeed = 3, kApart = 20, kSigma = 5;                 // [m/s], 
 constexpr double kDetection = 0.9;
 constexpr double kCutoff = 20, kOrder = 2;  // of OSPA [m]
 
-constexpr std::array kReadings{JpdaReading{"single scan", 1, "best"},
-                               JpdaReading{"A", 2, "restart"}, JpdaReading{"C", 2, "sliding"},
-                               JpdaReading{"C*", 2, "best"},
-                               JpdaReading{"C*, three scans", 3, "best"}};
+constexpr std::array kReadings{
+    JpdaReading{"single scan", 1, WindowReading::best}, JpdaReading{"A", 2, WindowReading::restart},
+    JpdaReading{"C", 2, WindowReading::sliding}, JpdaReading{"C*", 2, WindowReading::best},
+    JpdaReading{"C*, three scans", 3, WindowReading::best}};
 constexpr std::size_t kBest = 3;
 
 struct Run {

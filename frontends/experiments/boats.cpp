@@ -35,9 +35,9 @@ BoatRecord read_scenario(const std::string& data, int scenario, BoatSensor senso
   return read_autoferry(detections, file_of(data, scenario, "groundTruth"), sensor);
 }
 
-constexpr JpdaReading kSingle{"imm-jpda", 1, "best"};
-constexpr JpdaReading kRestart{"imm-mscan-jpda, reading A", 2, "restart"};
-constexpr JpdaReading kBest{"imm-mscan-jpda", 2, "best"};
+constexpr JpdaReading kSingle{"imm-jpda", 1, WindowReading::best};
+constexpr JpdaReading kRestart{"imm-mscan-jpda, reading A", 2, WindowReading::restart};
+constexpr JpdaReading kBest{"imm-mscan-jpda", 2, WindowReading::best};
 
 ImmJpdaConfig started_from_truth(ImmJpdaConfig config) {
   keep_to_known(config);
@@ -145,7 +145,8 @@ ExperimentResult run_jpda_boats(const ExperimentOptions& options, Workers&) {
       const BoatScore known = follow_boats(radar, started_from_truth(config), kEverywhere);
       add_known_rows(title + ", radar", known, s.radar, s.number != kLostScenario, result);
       ImmJpdaConfig polar = started_from_truth(config);
-      polar.measurement = "range-azimuth", polar.range_sd = 4.5, polar.azimuth_sd = .03;
+      polar.measurement = MeasuredQuantity::range_azimuth, polar.range_sd = 4.5,
+      polar.azimuth_sd = .03;
       add_polar_rows(title + ", radar as range and azimuth", known,
                      follow_boats(radar, polar, kEverywhere), result);
       add_own_rows(title + ", radar, own start",

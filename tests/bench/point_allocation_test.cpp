@@ -96,7 +96,7 @@ constexpr Entry entry(const char* name, std::size_t a_start, Length length = {})
 }
 
 struct RestartConfig : ImmMscanJpdaConfig {
-  RestartConfig() { reading = "restart"; }
+  RestartConfig() { reading = WindowReading::restart; }
 };
 struct UnlikeConfig : ImmJpdaConfig {
   UnlikeConfig() { motion = "ncv+wpa+wpa"; }

@@ -76,7 +76,7 @@ TEST(Boats, BoatsThatChangePlacesUnseenAreSwapped) {
 
 TEST(Boats, RangeAndAzimuthTellWhatPositionsTell) {
   ImmJpdaConfig polar = config(false);
-  polar.measurement = "range-azimuth", polar.range_sd = 5, polar.azimuth_sd = 0.05;
+  polar.measurement = MeasuredQuantity::range_azimuth, polar.range_sd = 5, polar.azimuth_sd = 0.05;
   const BoatScore score = follow_boats(two_boats(20), polar, kFar);
   EXPECT_EQ(score.lost, 0);
   EXPECT_LT(score.scores.mean_ospa.distance, 0.1);

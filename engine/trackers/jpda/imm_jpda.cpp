@@ -9,29 +9,18 @@
 namespace glint {
 namespace {
 
-/// `scans` of the window: tentative tracks are many and short, and for them each scan stands alone.
-ImmWindowConfig window_config(const ImmJpdaConfig& config, int scans) {
-  ImmWindowConfig window;
-  window.window = scans;
-  if (config.reading == "restart") window.reading = WindowReading::restart;
-  if (config.reading == "sliding") window.reading = WindowReading::sliding;
-  window.detection = config.detection, window.gate = config.gate;
-  if (config.linearisation == "ukf") window.linearisation = Linearisation::unscented;
-  if (config.clutter == "any") window.clutter = JpdaClutter::Number::any;
-  return window;
-}
-
-PointNoise noise_of(const ImmJpdaConfig& config) {
-  return {config.measurement == "range-azimuth", config.measurement_variance, config.range_sd,
-          config.azimuth_sd};
+/// Tentative tracks are many and short: for them each scan stands alone.
+ImmWindowConfig single_scan(ImmWindowConfig config) {
+  config.window = 1;
+  return config;
 }
 
 }  // namespace
 
 ImmJpda::ImmJpda(const ImmJpdaConfig& config, const Device&, std::uint64_t /*seed*/)
     : config_(valid(config)),
-      confirmed_{SensorWindow(window_config(config, config.window), noise_of(config)), {}},
-      tentative_{SensorWindow(window_config(config, 1), noise_of(config)), {}} {
+      confirmed_{SensorWindow(config, config), {}},
+      tentative_{SensorWindow(single_scan(config), config), {}} {
   check(config);
 }
 
@@ -81,7 +70,7 @@ void ImmJpda::read_points(const Scan& scan) {
 }
 
 void ImmJpda::associate(TrackSet& set, const StepTime& at) {
-  if (set.tracks.empty() && config_.reading != "restart") return;
+  if (set.tracks.empty() && config_.reading != WindowReading::restart) return;
   positions_.clear();
   for (const std::uint32_t j : offered_) positions_.push_back(points_.positions[j]);
   const MultiscanReport report = set.window.step(positions_, place_, density_, elapsed_);

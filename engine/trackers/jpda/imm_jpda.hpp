@@ -18,7 +18,7 @@
 namespace glint {
 
 /// Settings of `imm-jpda`. Positions are in px, or whatever unit the points are in.
-struct ImmJpdaConfig : PointTrackConfig {
+struct ImmJpdaConfig : PointTrackConfig, PointSensorConfig, ImmWindowConfig {
   // How a target moves.
   std::string motion = "ncv+ncv";  ///< models, "+" between
   double noise = 0.05;             ///< acceleration of ncv [px/time^2]
@@ -26,18 +26,8 @@ struct ImmJpdaConfig : PointTrackConfig {
   double noise_jump = 4;           ///< of the second wpa
   double stay = 0.95;              ///< probability of no change of model
   std::string clock = "frames";    ///< frames, seconds
-  // Which points are whose.
-  std::string measurement = "position";      ///< position, range-azimuth
-  double measurement_variance = 1;           ///< [px^2]
-  double range_sd = 4.5, azimuth_sd = 0.03;  ///< [px], [rad]
-  std::string linearisation = "ekf";         ///< ekf, ukf
-  double gate = 13.8;                        ///< squared distance in sigmas
-  double detection = 0.9;
-  std::string clutter = "poisson";          ///< poisson, any
-  double clutter_density = 0;               ///< [1/px^2]; 0 = auto
-  int window = 1;                           ///< scans
-  std::string reading = "best";             ///< restart, sliding, best
-  double position_sd = 0, velocity_sd = 1;  ///< of a known start [px], [px/time]
+  double clutter_density = 0;      ///< of false points [1/px^2]; 0 = auto
+  double position_sd = 0, velocity_sd = 1;  ///< of a known start [px], [px/time]; 0 = as a point's
 
   ImmJpdaConfig() {
     life.birth_existence = 0.1, life.confirm_existence = 0.9;

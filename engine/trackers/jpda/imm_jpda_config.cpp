@@ -17,23 +17,29 @@ void describe_motion(FieldList& f, ImmJpdaConfig& c) {
 }
 
 void describe_association(FieldList& f, ImmJpdaConfig& c) {
-  f("measurement", c.measurement, {"position", "range-azimuth"},
+  f("measurement", c.measurement,
+    {{"position", MeasuredQuantity::position}, {"range-azimuth", MeasuredQuantity::range_azimuth}},
     "what the sensor measures, and so how its points scatter");
   f("measurement_variance", c.measurement_variance, 1e-6, 1e6, "px^2",
     "of a point's position along each axis, if positions are measured");
   f("range_sd", c.range_sd, 1e-6, 1e6, "px", "spread of a measured range");
   f("azimuth_sd", c.azimuth_sd, 1e-9, 3.2, "rad", "spread of a measured azimuth");
-  f("linearisation", c.linearisation, {"ekf", "ukf"},
+  f("linearisation", c.linearisation,
+    {{"ekf", Linearisation::extended}, {"ukf", Linearisation::unscented}},
     "of range and azimuth: extended or unscented Kalman filter");
   f("gate", c.gate, 0.1, 1000, "", "squared distance of a point in sigmas; 13.8 holds 99.9 %");
   f("detection", c.detection, 0.01, 0.9999, "", "probability that a target gives a point");
-  f("clutter", c.clutter, {"poisson", "any"},
+  f("clutter", c.clutter,
+    {{"poisson", JpdaClutter::Number::poisson}, {"any", JpdaClutter::Number::any}},
     "number of false points: Poisson, or any number as likely as any other (nonparametric)");
   f.automatic("clutter_density", c.clutter_density, 0, 1, "1/px^2",
               "density of false points if Poisson; auto is the number of points beyond one a "
               "confirmed track, over the frame's area");
   f("window", c.window, 1, 3, "scans", "that are associated together");
-  f("reading", c.reading, {"restart", "sliding", "best"},
+  f("reading", c.reading,
+    {{"restart", WindowReading::restart},
+     {"sliding", WindowReading::sliding},
+     {"best", WindowReading::best}},
     "of a window of several scans: from the estimate before it as printed (A), sliding (C), or "
     "sliding with the best permutation of each set of targets and points (C*)");
 }

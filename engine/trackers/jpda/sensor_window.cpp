@@ -7,14 +7,15 @@
 
 namespace glint {
 
-SensorWindow::SensorWindow(const ImmWindowConfig& config, const PointNoise& noise)
+SensorWindow::SensorWindow(const ImmWindowConfig& config, const PointSensorConfig& points)
     : window_(WithSensor<PositionSensor<2>>{ImmWindow<PositionSensor<2>>(config), {}}) {
-  if (noise.polar) {
+  if (points.measurement == MeasuredQuantity::range_azimuth) {
     RangeAzimuth sensor;
-    sensor.noise.diagonal() << noise.range_sd * noise.range_sd, noise.azimuth_sd * noise.azimuth_sd;
+    sensor.noise.diagonal() << points.range_sd * points.range_sd,
+        points.azimuth_sd * points.azimuth_sd;
     window_ = WithSensor<RangeAzimuth>{ImmWindow<RangeAzimuth>(config), sensor};
   } else {
-    std::get<0>(window_).sensor.noise *= noise.variance;
+    std::get<0>(window_).sensor.noise *= points.measurement_variance;
   }
 }
 

@@ -9,18 +9,21 @@
 
 namespace glint {
 
-/// Noise of points: the same along both axes, or along and across the sensor's line of sight.
-struct PointNoise {
-  bool polar = false;
-  double variance = 1;                     ///< of a position along each axis [px^2]; unless polar
-  double range_sd = 1, azimuth_sd = 0.01;  ///< [px], [rad]; if polar
+enum class MeasuredQuantity { position, range_azimuth };
+
+/// Settings of a sensor: how its points scatter about the targets.
+struct PointSensorConfig {
+  MeasuredQuantity measurement = MeasuredQuantity::position;
+  double measurement_variance = 1;  ///< of a position along each axis [px^2]
+  double range_sd = 4.5;            ///< [px]; along the line of sight from the sensor
+  double azimuth_sd = 0.03;         ///< [rad]; across it
 };
 
 /// An ImmWindow of points that are given by their positions, whatever their sensor measures: the
 /// position itself, or range and azimuth from the sensor's place.
 class SensorWindow {
  public:
-  SensorWindow(const ImmWindowConfig& config, const PointNoise& noise);
+  SensorWindow(const ImmWindowConfig& config, const PointSensorConfig& points);
 
   void add(const Imm& bank);
   void remove(std::size_t target);

@@ -45,7 +45,7 @@ ImmJpdaConfig known_targets() {
 struct Windows {
   const char* name;
   int window;
-  const char* reading;
+  WindowReading reading;
 };
 class ImmJpdaOf : public testing::TestWithParam<Windows> {
  protected:
@@ -54,12 +54,14 @@ class ImmJpdaOf : public testing::TestWithParam<Windows> {
     return config;
   }
 };
-INSTANTIATE_TEST_SUITE_P(
-    Windows, ImmJpdaOf,
-    testing::Values(Windows{"Single", 1, "best"}, Windows{"TwoRestart", 2, "restart"},
-                    Windows{"TwoSliding", 2, "sliding"}, Windows{"TwoBest", 2, "best"},
-                    Windows{"ThreeBest", 3, "best"}, Windows{"ThreeRestart", 3, "restart"}),
-    [](const auto& of) { return of.param.name; });
+INSTANTIATE_TEST_SUITE_P(Windows, ImmJpdaOf,
+                         testing::Values(Windows{"Single", 1, WindowReading::best},
+                                         Windows{"TwoRestart", 2, WindowReading::restart},
+                                         Windows{"TwoSliding", 2, WindowReading::sliding},
+                                         Windows{"TwoBest", 2, WindowReading::best},
+                                         Windows{"ThreeBest", 3, WindowReading::best},
+                                         Windows{"ThreeRestart", 3, WindowReading::restart}),
+                         [](const auto& of) { return of.param.name; });
 
 TEST_P(ImmJpdaOf, FollowsCrossingTargetsThroughClutter) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -181,9 +183,9 @@ TEST_P(ImmJpdaOf, TheOrderOfPointsDoesNotMatter) {
 // A window of one scan starts anew from the last estimate, whichever way it is read.
 TEST(ImmJpda, AWindowOfOneScanHasOneReading) {
   ImmJpdaConfig config = known_targets();
-  config.reading = "restart";
+  config.reading = WindowReading::restart;
   Player restart(config);
-  config.reading = "sliding";
+  config.reading = WindowReading::sliding;
   Player sliding(config);
   for (Player* player : {&restart, &sliding}) {
     player->tracker.start(0, 0, 1, 0), player->tracker.start(0, 3, 1, 0);
@@ -197,7 +199,7 @@ TEST(ImmJpda, AWindowOfOneScanHasOneReading) {
 
 // Once two targets were one point, a window that keeps both labels gives their mean for ever.
 TEST(ImmJpda, TheBestPermutationKeepsTargetsApartThatWereOnePoint) {
-  const auto apart = [](const char* reading) {
+  const auto apart = [](WindowReading reading) {
     std::mt19937 random(2);
     std::normal_distribution<double> noise(0, 0.5);
     ImmJpdaConfig config = known_targets();
@@ -212,7 +214,7 @@ TEST(ImmJpda, TheBestPermutationKeepsTargetsApartThatWereOnePoint) {
     const auto tracks = player.now();
     return std::abs(tracks[0].y - tracks[1].y);
   };
-  EXPECT_NEAR(apart("best"), 6, 1);
+  EXPECT_NEAR(apart(WindowReading::best), 6, 1);
 }
 
 TEST(ImmJpda, ModelsTellAManoeuvre) {

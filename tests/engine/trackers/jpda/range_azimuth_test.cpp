@@ -12,9 +12,9 @@
 namespace glint {
 namespace {
 
-ImmJpdaConfig radar(const std::string& linearisation, double range_sd, double azimuth_sd) {
+ImmJpdaConfig radar(Linearisation linearisation, double range_sd, double azimuth_sd) {
   ImmJpdaConfig config;
-  config.measurement = "range-azimuth", config.linearisation = linearisation;
+  config.measurement = MeasuredQuantity::range_azimuth, config.linearisation = linearisation;
   config.range_sd = range_sd, config.azimuth_sd = azimuth_sd;
   config.motion = "ncv", config.noise = 0.01;
   config.initiate = false, config.clutter_density = 1e-7, config.velocity_sd = 0.5;
@@ -49,7 +49,7 @@ double error_of(const ImmJpdaConfig& config, double range, unsigned seed) {
   return sum;
 }
 
-double mean_error(const std::string& linearisation, double range, double azimuth_sd) {
+double mean_error(Linearisation linearisation, double range, double azimuth_sd) {
   constexpr int kRuns = 40;
   double sum = 0;
   for (unsigned seed = 0; seed < kRuns; ++seed) {
@@ -60,12 +60,15 @@ double mean_error(const std::string& linearisation, double range, double azimuth
 
 // A point alone errs by 2 px^2.
 TEST(RangeAzimuth, NearAndSharpBothFollowThroughAzimuthPi) {
-  for (const char* how : {"ekf", "ukf"}) EXPECT_LT(mean_error(how, 100, 0.01), 0.7) << how;
+  for (const Linearisation how : {Linearisation::extended, Linearisation::unscented}) {
+    EXPECT_LT(mean_error(how, 100, 0.01), 0.7) << static_cast<int>(how);
+  }
 }
 
 // Where an arc of 3 sigma bends away from its tangent by many sigmas of range.
 TEST(RangeAzimuth, WideAndFarTheUnscentedFilterBeatsTheExtended) {
-  const double ekf = mean_error("ekf", 400, 0.25), ukf = mean_error("ukf", 400, 0.25);
+  const double ekf = mean_error(Linearisation::extended, 400, 0.25),
+               ukf = mean_error(Linearisation::unscented, 400, 0.25);
   RecordProperty("ekf", std::to_string(ekf));
   RecordProperty("ukf", std::to_string(ukf));
   EXPECT_LT(ukf, 0.8 * ekf) << ukf << " against " << ekf;
