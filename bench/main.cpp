@@ -12,7 +12,7 @@
 #include <string>
 
 #include "glint/bench/embed/bench_embed.hpp"
-#include "glint/frontends/cli/run_app.hpp"
+#include "glint/frontends/cli/command.hpp"
 #include "glint/frontends/usage_error.hpp"
 
 namespace glint::bench {
@@ -125,23 +125,23 @@ void run(const Request& request) {
   fmt::print("{}\n", all.dump(2));
 }
 
-void add_options(CLI::App& app) {
+void add_options(cli::Command& program) {
   const auto request = std::make_shared<Request>();
-  app.add_option("what", request->what, "kernels, trackers, frames, h-pmht or embed")
-      ->check(CLI::IsMember({"kernels", "trackers", "frames", "h-pmht", "embed"}))
-      ->capture_default_str();
-  app.add_option("--size", request->size, "frame size, WIDTHxHEIGHT [px]")->capture_default_str();
-  app.add_option("--device", request->device, "tbb; kernels and frames also on egl or egl:N")
-      ->capture_default_str();
-  app.add_flag("--quick", request->quick, "fewer samples, no growth over sizes");
-  app.add_flag("--json", request->json, "print JSON instead of tables");
-  app.footer(
+  program.option("what", request->what, "kernels, trackers, frames, h-pmht or embed")
+      .one_of({"kernels", "trackers", "frames", "h-pmht", "embed"})
+      .with_default();
+  program.option("--size", request->size, "frame size, WIDTHxHEIGHT [px]").with_default();
+  program.option("--device", request->device, "tbb; kernels and frames also on egl or egl:N")
+      .with_default();
+  program.flag("--quick", request->quick, "fewer samples, no growth over sizes");
+  program.flag("--json", request->json, "print JSON instead of tables");
+  program.footer(
       "Examples:\n"
       "  glint bench kernels\n"
       "  glint bench kernels --device egl\n"
       "  glint bench frames --device egl --quick\n"
       "  glint bench frames --size 4096x4096 --json");
-  app.callback([request] { run(*request); });
+  program.callback([request] { run(*request); });
 }
 
 }  // namespace
@@ -149,8 +149,8 @@ void add_options(CLI::App& app) {
 
 /// What `glint bench` starts.
 int main(int argc, char** argv) {
-  CLI::App app("Measures kernels, trackers or the whole engine beside the machine's limits",
-               "glint bench");
-  glint::bench::add_options(app);
-  return glint::cli::run_app(app, argc, argv);
+  glint::cli::Program program(
+      "glint bench", "Measures kernels, trackers or the whole engine beside the machine's limits");
+  glint::bench::add_options(program);
+  return program.run(argc, argv);
 }

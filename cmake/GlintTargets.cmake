@@ -11,6 +11,25 @@ target_compile_options(glint_settings INTERFACE $<BUILD_INTERFACE:-Wall> $<BUILD
   # g++ 12 sees overlapping copies in every string + string (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:$<BUILD_INTERFACE:-Wno-restrict>>
   $<$<BOOL:${GLINT_WERROR}>:$<BUILD_INTERFACE:-Werror>>)
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  # g++ takes what the sanitizers put in for paths that leave variables unset.
+  target_compile_options(glint_settings INTERFACE $<BUILD_INTERFACE:-Wno-maybe-uninitialized>)
+endif()
+
+# glint_optimise(TARGET LEVEL): another level than the release build's -O3, for what has no arithmetic
+# worth it. No level changes a value.
+function(glint_optimise target level)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
+endfunction()
+
+# glint_precompile(TARGET HEADERS...): with GLINT_PRECOMPILE, these and what nearly every source includes.
+# Sources must not rest on it: other builds do without.
+function(glint_precompile target)
+  if(GLINT_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream>
+      <functional> <map> <memory> <optional> <span> <string> <vector> ${ARGN})
+  endif()
+endfunction()
 
 # The instruction sets that a kernel's lanes.cpp is built for; each becomes namespace glint::lanes_<isa>.
 set(GLINT_LANES plain)

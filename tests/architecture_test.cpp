@@ -100,6 +100,9 @@ TEST(Architecture, EigenStaysOutOfTheBytesOfState) {
 TEST(Architecture, OpenCvStaysInVideoAndInBaselines) {
   expect_none(kRooms, {"opencv"}, {"frontends/video/", "bench/baselines/"});
 }
+TEST(Architecture, Cli11StaysBehindTheCommand) {
+  expect_none(kRooms, {"CLI/"}, {"frontends/cli/command.cpp"});
+}
 TEST(Architecture, TomlStaysInConfig) { expect_none(kRooms, {"toml++"}, {"frontends/config/"}); }
 TEST(Architecture, PythonStaysInItsFrontEnd) {
   expect_none(kRooms, {"pybind11", "Python.h"}, {"frontends/python/"});

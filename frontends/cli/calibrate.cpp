@@ -10,6 +10,7 @@
 #include <string>
 
 #include "glint/engine/number_text.hpp"
+#include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/frame_job.hpp"
 #include "glint/frontends/cli/run_progress.hpp"
 
@@ -134,31 +135,30 @@ std::string table() {
 
 }  // namespace
 
-void add_calibrate(CLI::App& app) {
+void add_calibrate(Command& program) {
   const auto request = std::make_shared<Request>();
   CalibrationOptions& options = request->options;
   request->size = fmt::format("{}x{}", options.noise.width, options.noise.height);
-  CLI::App* command = app.add_subcommand(
-      "calibrate", "A tracker's threshold for a wanted rate of false tracks in white noise");
-  command->add_option("TRACKER", request->tracker, "name, see below")->required();
+  Command command = program.subcommand(kCalibrate.name, kCalibrate.description);
+  command.option("TRACKER", request->tracker, "name, see below").required();
   command
-      ->add_option("--false-tracks", options.false_tracks,
-                   "wanted, at most; confirmed tracks per frame and megapixel")
-      ->check(CLI::Range(1e-9, 1e9))
-      ->capture_default_str();
-  command->add_option("--runs", options.runs, "sequences of noise, with seeds from --seed on")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  command->add_option("--frames", options.noise.frames, "of a sequence")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  command->add_option("--size", request->size, "of a frame [px]")->capture_default_str();
-  add_run_options(*command, request->run);
-  command->add_flag("--json", request->json, "print JSON instead");
-  command->footer("Thresholds, laxest to strictest value looked at:\n" + table() +
-                  "Example:\n"
-                  "  glint calibrate viterbi --false-tracks 0.1 --set speed_max=3");
-  command->callback([request] { calibrate(*request); });
+      .option("--false-tracks", options.false_tracks,
+              "wanted, at most; confirmed tracks per frame and megapixel")
+      .in_range(1e-9, 1e9)
+      .with_default();
+  command.option("--runs", options.runs, "sequences of noise, with seeds from --seed on")
+      .in_range(1, 1000000)
+      .with_default();
+  command.option("--frames", options.noise.frames, "of a sequence")
+      .in_range(1, 1000000)
+      .with_default();
+  command.option("--size", request->size, "of a frame [px]").with_default();
+  add_run_options(command, request->run);
+  command.flag("--json", request->json, "print JSON instead");
+  command.footer("Thresholds, laxest to strictest value looked at:\n" + table() +
+                 "Example:\n"
+                 "  glint calibrate viterbi --false-tracks 0.1 --set speed_max=3");
+  command.callback([request] { calibrate(*request); });
 }
 
 }  // namespace glint::cli

@@ -4,25 +4,25 @@
 #include <memory>
 #include <string>
 
+#include "glint/engine/profiles.hpp"
+#include "glint/engine/run_config.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/config_file.hpp"
-#include "glint/engine/profiles.hpp"
-#include "glint/engine/run_config.hpp"
 #include "glint/frontends/config/toml.hpp"
 
 namespace glint::cli {
 
-void add_config(CLI::App& app) {
+void add_config(Command& program) {
   auto tracker = std::make_shared<std::string>();
   auto profile = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("config", "A tracker's whole configuration, as TOML");
-  command->add_option("TRACKER", *tracker, "name, see glint info")->required();
-  command->add_option("--profile", *profile, profile_help());
-  command->footer(
+  Command command = program.subcommand("config", "A tracker's whole configuration, as TOML");
+  command.option("TRACKER", *tracker, "name, see glint info").required();
+  command.option("--profile", *profile, profile_help());
+  command.footer(
       "Example:\n"
       "  glint config smc-phd > my.toml; glint track clip.mp4 --config my.toml");
-  command->callback([tracker, profile] {
+  command.callback([tracker, profile] {
     const TrackerEntry& entry = find_tracker(*tracker);
     const std::string name(entry.name);
     auto all = all_sections();

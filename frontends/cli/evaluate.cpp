@@ -129,32 +129,32 @@ void run(Request request) {
 
 }  // namespace
 
-void add_evaluate(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("evaluate", "Score tracks against the truth");
+void add_evaluate(Command& program) {
+  Command command = program.subcommand("evaluate", "Score tracks against the truth");
   const auto request = std::make_shared<Request>();
-  command->add_option("--truth", request->truth, "Truth table (CSV)")->required();
-  command->add_option("--tracks", request->tracks, "Track table (CSV)")->required();
-  command->add_option("--cutoff", request->options.cutoff, "Farther than this is a miss [px]")
-      ->check(CLI::Range(1e-6, 1e6))
-      ->capture_default_str();
-  command->add_option("--order", request->options.order, "Order of OSPA and GOSPA")
-      ->check(CLI::Range(1.0, 100.0))
-      ->capture_default_str();
+  command.option("--truth", request->truth, "Truth table (CSV)").required();
+  command.option("--tracks", request->tracks, "Track table (CSV)").required();
+  command.option("--cutoff", request->options.cutoff, "Farther than this is a miss [px]")
+      .in_range(1e-6, 1e6)
+      .with_default();
+  command.option("--order", request->options.order, "Order of OSPA and GOSPA")
+      .in_range(1.0, 100.0)
+      .with_default();
   command
-      ->add_option("--frames", request->options.frames,
-                   "Frames 0 to N-1 are scored; by default up to the last one in either table")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{10'000'000}));
-  command->add_option("--baseline", request->baseline,
-                      "Points of a single-frame detector (CSV), scored at the threshold that gives "
-                      "as many false points as the tracks have");
-  command->add_flag("--include-tentative", request->options.include_tentative,
-                    "Score tentative points too, not only confirmed ones");
-  command->add_flag("--json", request->json, "Print JSON instead of a table");
-  command->footer(
+      .option("--frames", request->options.frames,
+              "Frames 0 to N-1 are scored; by default up to the last one in either table")
+      .in_range(std::int64_t{0}, std::int64_t{10'000'000});
+  command.option("--baseline", request->baseline,
+                 "Points of a single-frame detector (CSV), scored at the threshold that gives "
+                 "as many false points as the tracks have");
+  command.flag("--include-tentative", request->options.include_tentative,
+               "Score tentative points too, not only confirmed ones");
+  command.flag("--json", request->json, "Print JSON instead of a table");
+  command.footer(
       "Truth needs the columns frame, track_id, x, y (or frame0, linked_id, cx, cy), tracks the\n"
       "first four, points frame, x, y, amplitude. Delays are in frames.\n"
       "Example:\n  glint evaluate --truth truth.csv --tracks tracks.csv --cutoff 8");
-  command->callback([request] { run(*request); });
+  command.callback([request] { run(*request); });
 }
 
 }  // namespace glint::cli

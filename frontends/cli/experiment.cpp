@@ -182,32 +182,30 @@ std::string names() {
 
 }  // namespace
 
-void add_experiment(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("experiment", "Repeat a paper's experiment beside its table");
+void add_experiment(Command& program) {
+  Command command = program.subcommand(kExperiment.name, kExperiment.description);
   const auto request = std::make_shared<Request>();
-  command->add_option("name", request->name, "Which one")->required();
-  command->add_option("--runs", request->options.runs, "Monte Carlo runs; 0 = the experiment's own")
-      ->check(CLI::Range(0, 1000000));
-  command->add_option("--seed", request->options.seed, "Seed of the first run")
-      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
-      ->capture_default_str();
+  command.option("name", request->name, "Which one").required();
+  command.option("--runs", request->options.runs, "Monte Carlo runs; 0 = the experiment's own")
+      .in_range(0, 1000000);
+  command.option("--seed", request->options.seed, "Seed of the first run")
+      .in_range(0, std::numeric_limits<int>::max())
+      .with_default();
   command
-      ->add_option("--device", request->device,
-                   "Where phd-* and hpmht-* run their kernels: auto, serial, tbb, egl or egl:N")
-      ->capture_default_str();
-  command->add_option("--data", request->options.data,
-                      "Folder of recorded data, where one is needed");
-  command->add_option("--out", request->out, "Folder for the curves: CSV and a picture");
-  command->add_option("--keep", request->keep,
-                      "Folder that keeps finished runs, which are not repeated");
-  command->add_option("--threads", request->threads, "Threads; 0 = all, the result is the same")
-      ->check(CLI::Range(0, 4096));
-  command->add_flag("--json", request->json, "Print JSON instead of a table");
-  command->footer("Experiments:\n" + names() +
-                  "Exit code 1 if a figure lies outside its band.\n"
-                  "Example:\n  glint experiment phd-5.1 --runs 100 --out curves");
-  command->callback([request] { run(*request); });
+      .option("--device", request->device,
+              "Where phd-* and hpmht-* run their kernels: auto, serial, tbb, egl or egl:N")
+      .with_default();
+  command.option("--data", request->options.data, "Folder of recorded data, where one is needed");
+  command.option("--out", request->out, "Folder for the curves: CSV and a picture");
+  command.option("--keep", request->keep,
+                 "Folder that keeps finished runs, which are not repeated");
+  command.option("--threads", request->threads, "Threads; 0 = all, the result is the same")
+      .in_range(0, 4096);
+  command.flag("--json", request->json, "Print JSON instead of a table");
+  command.footer("Experiments:\n" + names() +
+                 "Exit code 1 if a figure lies outside its band.\n"
+                 "Example:\n  glint experiment phd-5.1 --runs 100 --out curves");
+  command.callback([request] { run(*request); });
 }
 
 }  // namespace glint::cli

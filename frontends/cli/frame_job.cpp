@@ -38,9 +38,9 @@ std::vector<std::string> further_sections(const std::vector<std::string>& inputs
 }
 
 /// An option that is short for --set run.<key>=...
-void add_run_option(CLI::App& command, FrameOptions& options, const char* option, const char* key,
+void add_run_option(Command& command, FrameOptions& options, const char* option, const char* key,
                     const char* help) {
-  command.add_option_function<std::string>(
+  command.option(
       option, [&options, key](const std::string& v) { options.run.emplace_back(key, v); }, help);
 }
 
@@ -129,25 +129,25 @@ bool holds_points(const FrameJob& job) {
   return input.ends_with(".csv") || input.ends_with(".jsonl");
 }
 
-void add_run_options(CLI::App& command, FrameOptions& options) {
-  command.add_option("--profile", options.profile, profile_help());
-  command.add_option("--config", options.config,
-                     "TOML file, or tracks in any format: the settings of the run that wrote them");
-  command.add_option("--set", options.sets, "key=value, e.g. frames.polarity=dark; repeatable")
-      ->allow_extra_args(false);
+void add_run_options(Command& command, FrameOptions& options) {
+  command.option("--profile", options.profile, profile_help());
+  command.option("--config", options.config,
+                 "TOML file, or tracks in any format: the settings of the run that wrote them");
+  command.option("--set", options.sets, "key=value, e.g. frames.polarity=dark; repeatable")
+      .one_value();
   add_run_option(command, options, "--device", "device", "auto, serial, tbb, egl or egl:N [auto]");
   add_run_option(command, options, "--threads", "threads", "0 = all of the machine's [0]");
   add_run_option(command, options, "--seed", "seed", "of all random numbers [1]");
-  command.add_flag("--quiet", options.quiet, "no progress line, no summary");
+  command.flag("--quiet", options.quiet, "no progress line, no summary");
 }
 
-void add_frame_options(CLI::App& command, FrameOptions& options) {
+void add_frame_options(Command& command, FrameOptions& options) {
   command
-      .add_option("INPUT", options.inputs,
-                  "video, images (folder, pattern like f_%04d.png, list, multi-page TIFF), FITS "
-                  "files or cubes, .npy cube, points (.csv, .jsonl), - (raw frames from standard "
-                  "input), or scene:NAME")
-      ->required();
+      .option("INPUT", options.inputs,
+              "video, images (folder, pattern like f_%04d.png, list, multi-page TIFF), FITS "
+              "files or cubes, .npy cube, points (.csv, .jsonl), - (raw frames from standard "
+              "input), or scene:NAME")
+      .required();
   add_run_options(command, options);
   add_run_option(command, options, "--fps", "fps",
                  "frame rate, instead of the input's own (images: 1)");

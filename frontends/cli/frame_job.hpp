@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "glint/engine/scheduler.hpp"
-#include "glint/frontends/cli/commands.hpp"
 #include "glint/engine/run_config.hpp"
+#include "glint/engine/scheduler.hpp"
+#include "glint/frontends/cli/command.hpp"
 
 namespace glint::cli {
 
@@ -21,9 +21,9 @@ struct FrameOptions {
 };
 /// Adds --profile, --config, --set, --device, --threads, --seed and --quiet. `options` must live as
 /// long as the command.
-void add_run_options(CLI::App& command, FrameOptions& options);
+void add_run_options(Command& command, FrameOptions& options);
 /// Adds INPUT..., the run options, --fps, --format, --size, --add-noise and --mask.
-void add_frame_options(CLI::App& command, FrameOptions& options);
+void add_frame_options(Command& command, FrameOptions& options);
 
 /// What a run of frames is made of, settled from file and options. Order: defaults, --profile,
 /// --config, options, --set.

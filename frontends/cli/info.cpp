@@ -6,7 +6,6 @@
 
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
-#include "glint/experiments/experiment.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/modules/video.hpp"
 #include "glint/kernels/all.hpp"
@@ -60,15 +59,15 @@ void print_info() {
   fmt::print("\ninputs            {}\n", video_support());
   print_entries("trackers", all_trackers());
   print_entries("scenes", all_scenes());
-  print_entries("experiments", all_experiments());
+  fmt::print("experiments       glint experiment --help lists them\n");
 }
 
 }  // namespace
 
-void add_info(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("info", "Version, build, devices, kernels, trackers");
-  command->footer("Example:\n  glint info");
-  command->callback(print_info);
+void add_info(Command& program) {
+  Command command = program.subcommand("info", "Version, build, devices, kernels, trackers");
+  command.footer("Example:\n  glint info");
+  command.callback(print_info);
 }
 
 }  // namespace glint::cli

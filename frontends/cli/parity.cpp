@@ -163,14 +163,12 @@ void run(const Request& request) {
 
 }  // namespace
 
-void add_parity(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "parity", "Checks every kernel against its reference and that threads change nothing");
+void add_parity(Command& program) {
+  Command command = program.subcommand(kParity.name, kParity.description);
   const auto request = std::make_shared<Request>();
-  command->add_option("--device", request->device, "auto, serial, tbb, egl or egl:N")
-      ->capture_default_str();
-  command->add_flag("--json", request->json, "print every trial on every device as JSON");
-  command->footer(
+  command.option("--device", request->device, "auto, serial, tbb, egl or egl:N").with_default();
+  command.flag("--json", request->json, "print every trial on every device as JSON");
+  command.footer(
       "Every trial of every kernel must be inside its declared tolerance of the serial reference,\n"
       "with the same bits on 1, 2, 3 and 8 threads and every instruction set; track logs must be\n"
       "equal byte for byte. egl repeats itself, and runs on tbb what it has no shader for (see "
@@ -180,7 +178,7 @@ void add_parity(CLI::App& app) {
       "  glint parity\n"
       "  glint parity --device tbb --json\n"
       "  glint parity --device egl");
-  command->callback([request] { run(*request); });
+  command.callback([request] { run(*request); });
 }
 
 }  // namespace glint::cli

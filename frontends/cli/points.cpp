@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/points_file.hpp"
 #include "glint/frontends/usage_error.hpp"
 
@@ -29,15 +30,15 @@ void find_all_points(const PointsOptions& options) {
 
 }  // namespace
 
-void add_points(CLI::App& app) {
+void add_points(Command& program) {
   auto options = std::make_shared<PointsOptions>();
-  CLI::App* command = app.add_subcommand(
+  Command command = program.subcommand(
       "points",
       "Points of single frames: local maxima of the matched filter (the baseline), or 5x5 units");
-  add_frame_options(*command, options->frames);
-  command->add_option("--out", options->out, "points.csv")->required();
+  add_frame_options(command, options->frames);
+  command.option("--out", options->out, "points.csv").required();
   const auto setting = [&](const char* option, const char* key, const char* help) {
-    command->add_option_function<std::string>(
+    command.option(
         option,
         [options, key](const std::string& v) {
           options->frames.sets.push_back(std::string(key) + '=' + v);
@@ -46,12 +47,12 @@ void add_points(CLI::App& app) {
   };
   setting("--threshold", "points.threshold", "least value of the matched filter [sigma]");
   setting("--psf-sigma", "points.psf_sigma", "point spread of the matched filter [px]");
-  command->footer(
+  command.footer(
       "--set points.mode=unit_5x5 takes blocks of 5x5 pixels above the mean intensity instead.\n"
       "Example: how well does the best threshold do beside a tracker?\n"
       "  glint points clip.mp4 --add-noise 53 --out points.csv\n"
       "  glint evaluate --truth truth.csv --tracks tracks.csv --baseline points.csv");
-  command->callback([options] { find_all_points(*options); });
+  command.callback([options] { find_all_points(*options); });
 }
 
 }  // namespace glint::cli

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "glint/engine/scenario/scenario.hpp"
+#include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/points_file.hpp"
 #include "glint/frontends/files/npy.hpp"
 #include "glint/frontends/files/tables.hpp"
@@ -103,24 +104,24 @@ std::string scene_names() {
 
 }  // namespace
 
-void add_simulate(CLI::App& app) {
+void add_simulate(Command& program) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command = app.add_subcommand("simulate", "Write a scene's frames, truth and points");
-  command->add_option("SCENE", options->scene, scene_names())->required();
-  command->add_option("--out", options->out, "folder, made if need be")->required();
+  Command command = program.subcommand("simulate", "Write a scene's frames, truth and points");
+  command.option("SCENE", options->scene, scene_names()).required();
+  command.option("--out", options->out, "folder, made if need be").required();
   command
-      ->add_option(
+      .option(
           "--format", options->format,
           "tiff32 (float), tiff16 (rounded, clipped to 0..65535) or npy [" + default_format() + "]")
-      ->check(CLI::IsMember({"tiff32", "tiff16", "npy"}));
-  add_run_options(*command, options->frames);
-  command->footer(
+      .one_of({"tiff32", "tiff16", "npy"});
+  add_run_options(command, options->frames);
+  command.footer(
       "Examples:\n"
       "  glint simulate ir-clip --out clip --seed 3\n"
       "  glint simulate phd-5.1 --out dim --set snr=8 --format npy\n"
       "  glint track clip --tracker smc-phd --out tracks.csv\n"
       "  glint evaluate --truth clip/truth.csv --tracks tracks.csv");
-  command->callback([options] { simulate(*options); });
+  command.callback([options] { simulate(*options); });
 }
 
 }  // namespace glint::cli

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "glint/engine/trackers/registry.hpp"
+#include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/cli/frame_job.hpp"
 #include "glint/frontends/cli/track_outputs.hpp"
 #include "glint/frontends/files/tables.hpp"
@@ -135,32 +136,35 @@ void track(TrackOptions options) {
 
 }  // namespace
 
-void add_track(CLI::App& app) {
+void add_track(Command& program) {
   auto options = std::make_shared<TrackOptions>();
-  CLI::App* command = app.add_subcommand("track", "Follow targets through frames");
-  add_frame_options(*command, options->frames);
+  Command command = program.subcommand("track", "Follow targets through frames");
+  add_frame_options(command, options->frames);
   command
-      ->add_option("--tracker", options->trackers,
-                   "which tracker (" + tracker_names() + "); repeatable")
-      ->allow_extra_args(false);
-  command->add_option_function<std::string>(
+      .option("--tracker", options->trackers, "which tracker (" + tracker_names() + "); repeatable")
+      .one_value();
+  command.option(
       "--points",
       [options](const std::string& v) { options->frames.run.emplace_back("points", v); },
       "points (.csv, .jsonl) that go with the frames, by frame or time, for trackers of points, "
       "instead of those found in the frames");
   command
-      ->add_option("--out", options->outputs.tracks,
-                   "tracks as .csv, .jsonl or .mot.txt (confirmed only, with the run's settings "
-                   "beside them in .mot.txt.toml), or - for JSON Lines on standard output as they "
-                   "come; repeatable")
-      ->allow_extra_args(false);
-  command->add_option("--overlay", options->outputs.overlay,
-                      "video of the frames with the tracks, .mp4, .avi or .mkv");
-  command->add_option("--picture", options->outputs.picture,
-                      "one such frame beside the raw one, .png");
-  command->add_flag("--revised", options->outputs.revised,
-                    "write tracks as revised later, not as reported at the time");
-  command->footer(
+      .option("--out", options->outputs.tracks,
+              "tracks as .csv, .jsonl or .mot.txt (confirmed only, with the run's settings "
+              "beside them in .mot.txt.toml), or - for JSON Lines on standard output as they "
+              "come; repeatable")
+      .one_value();
+  command.option("--overlay", options->outputs.overlay,
+                 "video of the frames with the tracks, .mp4, .avi or .mkv");
+  command
+      .option("--overlay-codec", options->outputs.overlay_codec,
+              "of .mp4 and .mkv: mpeg4, or h264, which browsers play and takes ten times as long")
+      .one_of({"mpeg4", "h264"})
+      .with_default();
+  command.option("--picture", options->outputs.picture, "one such frame beside the raw one, .png");
+  command.flag("--revised", options->outputs.revised,
+               "write tracks as revised later, not as reported at the time");
+  command.footer(
       "Examples:\n"
       "  glint track clip.mp4 --tracker smc-phd --out tracks.csv --overlay overlay.mp4\n"
       "  glint track frames/f_%04d.png --fps 50 --tracker smc-phd --set frames.polarity=dark\n"
@@ -172,7 +176,7 @@ void add_track(CLI::App& app) {
       "-\n"
       "  glint track clip.mp4 --config tracks.csv      repeats the run that wrote it\n"
       "All settings: glint config TRACKER");
-  command->callback([options] { track(*options); });
+  command.callback([options] { track(*options); });
 }
 
 }  // namespace glint::cli

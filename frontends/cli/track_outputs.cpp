@@ -38,7 +38,8 @@ TrackOutputs::TrackOutputs(const OutputOptions& options, const FrameJob& job, do
     }
   }
   if (const std::string& path = options.overlay; !path.empty()) {
-    pictures_.push_back(video_for(path, "--overlay").overlay_video(path, frame_rate, warn));
+    const auto codec = options.overlay_codec == "h264" ? OverlayCodec::h264 : OverlayCodec::mpeg4;
+    pictures_.push_back(video_for(path, "--overlay").overlay_video(path, frame_rate, codec, warn));
   }
   if (const std::string& path = options.picture; !path.empty()) {
     pictures_.push_back(video_for(path, "--picture").overlay_picture(path));

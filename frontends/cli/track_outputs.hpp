@@ -12,8 +12,9 @@
 namespace glint::cli {
 
 struct OutputOptions {
-  std::vector<std::string> tracks;  ///< files
-  std::string overlay, picture;     ///< files; empty = none
+  std::vector<std::string> tracks;      ///< files
+  std::string overlay, picture;         ///< files; empty = none
+  std::string overlay_codec = "mpeg4";  ///< or "h264"
   bool revised = false;
 };
 

@@ -34,8 +34,8 @@ void remove_if_empty(const std::string& path) {
 
 class OverlayVideo : public ClosingSink {
  public:
-  OverlayVideo(std::string path, double frame_rate, Warn warn)
-      : path_(std::move(path)), frame_rate_(frame_rate), warn_(std::move(warn)) {
+  OverlayVideo(std::string path, double frame_rate, OverlayCodec codec, Warn warn)
+      : path_(std::move(path)), frame_rate_(frame_rate), codec_(codec), warn_(std::move(warn)) {
     const std::string extension = fs::path(path_).extension().string();
     if (extension != ".mp4" && extension != ".avi" && extension != ".mkv") {
       throw UsageError(path_ + ": end the overlay's name in .mp4, .avi or .mkv");
@@ -69,9 +69,23 @@ class OverlayVideo : public ClosingSink {
     }
   }
 
+  bool open_codec(OverlayCodec codec, cv::Size size) {
+    return codec == OverlayCodec::h264 ? try_open(path_, "avc1", size)
+                                       : try_open(path_, "mp4v", size);
+  }
+
+  bool open_either_codec(cv::Size size) {
+    if (open_codec(codec_, size)) return true;
+    const bool h264 = codec_ == OverlayCodec::h264;
+    if (!open_codec(h264 ? OverlayCodec::mpeg4 : OverlayCodec::h264, size)) return false;
+    warn_(path_ + (h264 ? ": no H.264 encoder here; writing MPEG-4"
+                        : ": no MPEG-4 encoder here; writing H.264"));
+    return true;
+  }
+
   void open(cv::Size size) {
     const bool avi = path_.ends_with(".avi");
-    if (!avi && (try_open(path_, "avc1", size) || try_open(path_, "mp4v", size))) return;
+    if (!avi && open_either_codec(size)) return;
     const std::string other = fs::path(path_).replace_extension(".avi").string();
     if (!try_open(other, "MJPG", size)) {
       throw std::runtime_error(path_ +
@@ -87,8 +101,9 @@ class OverlayVideo : public ClosingSink {
 
   std::string path_;
   double frame_rate_;
+  OverlayCodec codec_;
   Warn warn_;
-  Painter painter_{640};  // H.264 of larger noise takes 100 ms a frame
+  Painter painter_{640};  // larger noise takes H.264 100 ms a frame
   cv::VideoWriter writer_;
 };
 
@@ -142,8 +157,8 @@ class OverlayPicture : public ClosingSink {
 }  // namespace
 
 std::unique_ptr<ClosingSink> overlay_video(const std::string& path, double frame_rate,
-                                           const Warn& warn) {
-  return std::make_unique<OverlayVideo>(path, frame_rate, warn);
+                                           OverlayCodec codec, const Warn& warn) {
+  return std::make_unique<OverlayVideo>(path, frame_rate, codec, warn);
 }
 
 std::unique_ptr<ClosingSink> overlay_picture(const std::string& path) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli.hpp"
 #include "folder.hpp"
 #include "glint/frontends/cli/commands.hpp"
 
@@ -101,8 +102,9 @@ TEST(Evaluate, NamesWhatIsMissing) {
 
 TEST(ExperimentCommand, PrintsTheJsonOfTheContractAndWritesTheCurves) {
   const Folder folder;
-  const Outcome o = glint({"experiment", "phd-5.1", "--runs", "1", "--seed", "3", "--threads", "1",
-                           "--json", "--out", folder / "curves"});
+  const test::Result o =
+      test::glint(folder, "experiment phd-5.1 --runs 1 --seed 3 --threads 1 --json --out " +
+                              (folder / "curves"));
   const auto json = nlohmann::json::parse(o.out);
   EXPECT_EQ(json["experiment"], "phd-5.1");
   EXPECT_EQ(json["runs"], 1);
@@ -127,11 +129,11 @@ TEST(ExperimentCommand, PrintsTheJsonOfTheContractAndWritesTheCurves) {
 
 TEST(ExperimentCommand, RefusesAnUnknownNameAndAFolderThatCannotBe) {
   const Folder folder;
-  const Outcome unknown = glint({"experiment", "nothing"});
+  const test::Result unknown = test::glint(folder, "experiment nothing");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_NE(unknown.err.find("phd-5.1"), std::string::npos);
   const std::string file = folder.write("file", "");
-  EXPECT_EQ(glint({"experiment", "phd-5.1", "--runs", "1", "--out", file + "/x"}).code, 2);
+  EXPECT_EQ(test::glint(folder, "experiment phd-5.1 --runs 1 --out " + file + "/x").code, 2);
 }
 
 }  // namespace

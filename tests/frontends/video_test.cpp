@@ -4,6 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "cli.hpp"
 #include "folder.hpp"
 #include "glint/frontends/files/open_source.hpp"
 #include "glint/frontends/video/image_file.hpp"
@@ -150,7 +151,8 @@ TEST(Overlay, ShowsEveryFrameScaledUpAndThePictureBoth) {
   TrackPoint p;
   p.track_id = 3, p.x = 100, p.y = 30, p.status = TrackStatus::confirmed;
   const std::vector<std::vector<TrackPoint>> reported{{p}};
-  const auto video = overlay_video(folder / "o.mp4", 25, [](const std::string&) {});
+  const auto video =
+      overlay_video(folder / "o.mp4", 25, OverlayCodec::mpeg4, [](const std::string&) {});
   const auto picture = overlay_picture(folder / "o.png");
   for (int f = 0; f < 6; ++f) {
     scan.frame = f;
@@ -176,11 +178,36 @@ TEST(Overlay, ShowsEveryFrameScaledUpAndThePictureBoth) {
   EXPECT_GT(coloured(both.rowRange(200, 392)), 50);
 }
 
+/// The tag of a video's codec: "mp4v", "avc1" and the like.
+std::string codec_of(const std::string& path) {
+  const auto tag = static_cast<unsigned>(cv::VideoCapture(path).get(cv::CAP_PROP_FOURCC));
+  std::string letters;
+  for (int i = 0; i < 4; ++i) letters += static_cast<char>(tag >> (8 * i) & 0xff);
+  return letters;
+}
+
+TEST(Overlay, IsMpeg4UnlessH264IsAskedFor) {
+  const Folder folder;
+  const std::string track = "track " + test::cube(folder, 64, 48, 3, 1, 1) +
+                            " --tracker smc-phd --quiet --overlay " + (folder / "o.mp4");
+  const test::Result plain = test::glint(folder, track);
+  EXPECT_EQ(plain.err, "");
+  EXPECT_EQ(codec_of(folder / "o.mp4"), "mp4v");
+  const test::Result asked = test::glint(folder, track + " --overlay-codec h264");
+  if (asked.err.empty()) {
+    EXPECT_EQ(codec_of(folder / "o.mp4"), "avc1");
+  } else {
+    EXPECT_TRUE(has(asked.err, "no H.264 encoder here; writing MPEG-4")) << asked.err;
+    EXPECT_EQ(codec_of(folder / "o.mp4"), "mp4v");
+  }
+  test::expect_error(test::glint(folder, track + " --overlay-codec mjpg"), 2, "--overlay-codec");
+}
+
 TEST(Overlay, UnwritablePathsAreFoundOutAtOnce) {
   const Folder folder;
   const auto warn = [](const std::string&) {};
-  EXPECT_THROW(overlay_video(folder / "no/o.mp4", 25, warn), UsageError);
-  EXPECT_THROW(overlay_video(folder / "o.gif", 25, warn), UsageError);
+  EXPECT_THROW(overlay_video(folder / "no/o.mp4", 25, OverlayCodec::mpeg4, warn), UsageError);
+  EXPECT_THROW(overlay_video(folder / "o.gif", 25, OverlayCodec::mpeg4, warn), UsageError);
   EXPECT_THROW(overlay_picture(folder / "no/o.png"), UsageError);
   EXPECT_THROW(overlay_picture(folder / "o.doc"), UsageError);
 }
