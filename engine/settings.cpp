@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "glint/engine/trimmed.hpp"
+
 namespace glint {
 namespace {
 
@@ -61,11 +63,6 @@ std::vector<FoundSetting> all_settings(std::span<ConfigSection> sections) {
   throw ConfigError("unknown key " + std::string(key) +
                     (meant.empty() ? ": `glint config TRACKER` shows all keys"
                                    : ": did you mean " + meant + "?"));
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t start = std::min(text.find_first_not_of(" \t"), text.size());
-  return text.substr(start, text.find_last_not_of(" \t") + 1 - start);
 }
 
 }  // namespace

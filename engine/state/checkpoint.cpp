@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "glint/engine/state/fields.hpp"
+#include "glint/kernels/core/fnv.hpp"
 
 namespace glint {
 namespace {
@@ -18,11 +19,11 @@ constexpr std::size_t kLabelAt = kChecksumAt + sizeof(std::uint64_t);
 
 /// FNV-1a by words of eight bytes, the high bits folded in.
 std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
+  std::uint64_t sum = kFnvBasis;
   for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
-    sum = (sum ^ word) * 0x100000001b3;
+    sum = fnv1a_step(sum, word);
     sum ^= sum >> 32;
   }
   return sum ^ bytes.size();

@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "glint/frontends/usage_error.hpp"
+#include "glint/kernels/core/fnv.hpp"
 
 namespace glint {
 namespace {
@@ -24,14 +25,6 @@ struct RecordHead {
   RunId id;
   std::uint64_t size = 0, digest = 0;
 };
-
-constexpr std::uint64_t kFnvBasis = 14695981039346656037U;
-
-/// FNV-1a
-std::uint64_t digest_of(std::string_view bytes, std::uint64_t digest = kFnvBasis) {
-  for (const char c : bytes) digest = (digest ^ static_cast<unsigned char>(c)) * 1099511628211U;
-  return digest;
-}
 
 std::string header_of(const RunOrigin& origin) {
   std::string header = "glint runs, format 1\n";
@@ -101,7 +94,7 @@ void RunFile::find_records(std::uint64_t from) {
     std::memcpy(&head, read(end_, sizeof head).data(), sizeof head);
     if (head.size > size - end_ - sizeof head) break;
     const std::uint64_t at = end_ + sizeof head;
-    if (digest_of(read(at, head.size)) != head.digest) break;
+    if (fnv1a(read(at, head.size)) != head.digest) break;
     records_[head.id] = {at, head.size};
     end_ = at + head.size;
   }
@@ -115,7 +108,7 @@ std::optional<std::string> RunFile::find(RunId id) {
 }
 
 void RunFile::keep(RunId id, const std::string& bytes) {
-  const RecordHead head{id, bytes.size(), digest_of(bytes)};
+  const RecordHead head{id, bytes.size(), fnv1a(bytes)};
   std::string record(reinterpret_cast<const char*>(&head), sizeof head);
   append(record + bytes);
   records_[id] = {end_ - bytes.size(), bytes.size()};
@@ -157,7 +150,7 @@ std::string program_digest() {
   std::array<char, 65536> part;
   std::uint64_t digest = kFnvBasis;
   while (program.read(part.data(), part.size()), program.gcount() > 0) {
-    digest = digest_of({part.data(), static_cast<std::size_t>(program.gcount())}, digest);
+    digest = fnv1a({part.data(), static_cast<std::size_t>(program.gcount())}, digest);
   }
   return fmt::format("{:016x}", digest);
 }

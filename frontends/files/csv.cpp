@@ -11,6 +11,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "glint/engine/trimmed.hpp"
 #include "glint/frontends/usage_error.hpp"
 
 namespace glint {
@@ -19,22 +20,18 @@ namespace {
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets write it
 
-std::string_view trimmed(std::string_view cell) {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t first = cell.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  cell = cell.substr(first, cell.find_last_not_of(kBlank) - first + 1);
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
-    cell = cell.substr(1, cell.size() - 2);
-  }
-  return cell;
+/// Without blanks about it, and without quotes.
+std::string_view cell_text(std::string_view cell) {
+  cell = trimmed(cell);
+  const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+  return quoted ? cell.substr(1, cell.size() - 2) : cell;
 }
 
 void split(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
   while (true) {
     const std::size_t comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
+    cells.push_back(cell_text(line.substr(0, comma)));
     if (comma == std::string_view::npos) return;
     line.remove_prefix(comma + 1);
   }
@@ -103,7 +100,7 @@ void read_csv(const std::string& path, std::span<const std::string_view> require
   std::string line;
   for (std::int64_t number = 1; std::getline(file, line); ++number) {
     if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
-    if (line.starts_with('#') || trimmed(line).empty()) continue;
+    if (line.starts_with('#') || cell_text(line).empty()) continue;
     split(line, cells);
     if (at.empty()) {
       at = locate(path, cells, columns, required.size());

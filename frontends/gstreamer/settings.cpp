@@ -3,30 +3,26 @@
 
 #include <span>
 #include <sstream>
+#include <string_view>
 
 #include "glint/engine/frames/frames_config.hpp"
 #include "glint/engine/profiles.hpp"
 #include "glint/engine/run_config.hpp"
+#include "glint/engine/trimmed.hpp"
 #include "glint/frontends/config/toml.hpp"
 
 namespace glint::gstreamer {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  constexpr const char* kBlank = " \t\n\r";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
 /// Short keys are looked for among the settings that the run reads.
 void set_all(const std::string& assignments, std::span<ConfigSection> all) {
   std::istringstream list(assignments);
   for (std::string item; std::getline(list, item, ';');) {
-    item = trimmed(item);
-    if (item.empty()) continue;
-    std::vector<ConfigSection> read = sections_with(trimmed(item.substr(0, item.find('='))), all);
-    apply_set(item, read);
+    const std::string_view setting = trimmed(item);
+    if (setting.empty()) continue;
+    std::vector<ConfigSection> read =
+        sections_with(trimmed(setting.substr(0, setting.find('='))), all);
+    apply_set(setting, read);
   }
 }
 

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "glint/kernels/core/fnv.hpp"
+
 namespace glint::gl {
 namespace {
 
@@ -18,13 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::array<char, 8> kMagic{'g', 'l', 'i', 'n', 't', 'p', 'r', '1'};
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;  // of a file that can be whole
-
-/// FNV-1a.
-std::uint64_t hash(std::string_view bytes) {
-  std::uint64_t h = 0xcbf29ce484222325U;
-  for (const char c : bytes) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return h;
-}
 
 /// What a file begins with; the key and the program follow.
 struct Header {
@@ -47,7 +42,7 @@ bool write_all(int file, const char* from, std::size_t bytes) {
 
 std::string contents_of(std::string_view key, const ProgramCache::Program& program) {
   const std::string_view bytes(program.bytes.data(), program.bytes.size());
-  const Header header{kMagic, key.size(), bytes.size(), hash(bytes), program.format};
+  const Header header{kMagic, key.size(), bytes.size(), fnv1a(bytes), program.format};
   std::string contents(sizeof header, '\0');
   std::memcpy(contents.data(), &header, sizeof header);
   return contents.append(key).append(bytes);
@@ -74,7 +69,7 @@ std::string ProgramCache::key_of(std::string_view text) const {
 
 fs::path ProgramCache::path_of(std::string_view key) const {
   std::array<char, 17> name{};
-  std::snprintf(name.data(), name.size(), "%016llx", static_cast<unsigned long long>(hash(key)));
+  std::snprintf(name.data(), name.size(), "%016llx", static_cast<unsigned long long>(fnv1a(key)));
   return folder_ / "programs" / name.data();
 }
 
@@ -94,7 +89,7 @@ std::optional<ProgramCache::Program> ProgramCache::find(std::string_view text) c
   Program program{static_cast<unsigned>(header.format), std::vector<char>(header.program_bytes)};
   if (!read(file, kept_key.data(), kept_key.size()) || kept_key != key ||
       !read(file, program.bytes.data(), program.bytes.size()) ||
-      hash({program.bytes.data(), program.bytes.size()}) != header.program_hash) {
+      fnv1a({program.bytes.data(), program.bytes.size()}) != header.program_hash) {
     return std::nullopt;
   }
   return program;

@@ -60,15 +60,10 @@ JpdaReport Jpda::run(std::span<const double> log_missed, std::span<const JpdaPai
   return report;
 }
 
-std::uint32_t Jpda::root(std::uint32_t target) {
-  while (parent_[target] != target) target = parent_[target] = parent_[parent_[target]];
-  return target;
-}
-
 /// Lays out the clusters by their first targets, in each the targets by number.
 void Jpda::find_clusters(std::span<const JpdaPair> pairs) {
   const std::size_t targets = missed_.size();
-  parent_.resize(targets), std::iota(parent_.begin(), parent_.end(), 0u);
+  sets_.reset(targets);
   pair_begin_.assign(targets + 1, 0);
   std::uint32_t points = 0;
   for (const JpdaPair& pair : pairs) {
@@ -78,8 +73,7 @@ void Jpda::find_clusters(std::span<const JpdaPair> pairs) {
   owner_.assign(points, kNobody), points_ = 0;
   for (const JpdaPair& pair : pairs) {
     if (owner_[pair.point] == kNobody) owner_[pair.point] = pair.target, ++points_;
-    const std::uint32_t a = root(owner_[pair.point]), b = root(pair.target);
-    parent_[std::max(a, b)] = std::min(a, b);  // roots are the first of their cluster
+    sets_.join(owner_[pair.point], pair.target);
   }
   order_.clear();
   for (std::uint32_t t = 0; t < targets; ++t) {
@@ -87,7 +81,7 @@ void Jpda::find_clusters(std::span<const JpdaPair> pairs) {
   }
   target_of_.assign(order_.begin(), order_.end());
   std::ranges::sort(target_of_, [this](std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t x = root(a), y = root(b);
+    const std::uint32_t x = sets_.root(a), y = sets_.root(b);
     return x != y ? x < y : a < b;
   });
   number_points(pairs);
@@ -98,7 +92,7 @@ void Jpda::number_points(std::span<const JpdaPair> pairs) {
   local_.assign(owner_.size(), kNobody);
   for (std::size_t i = 0; i < target_of_.size(); ++i) {
     const std::uint32_t target = target_of_[i];
-    if (i == 0 || root(target) != root(target_of_[i - 1])) {
+    if (i == 0 || sets_.root(target) != sets_.root(target_of_[i - 1])) {
       ranges_.push_back({i, 0, links_.size(), 0, 0});
     }
     Range& range = ranges_.back();

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "glint/engine/trackers/jpda/disjoint_sets.hpp"
 #include "glint/engine/trackers/jpda/jpda_cluster.hpp"
 #include "glint/engine/trackers/jpda/jpda_exact.hpp"
 #include "glint/engine/trackers/jpda/jpda_loopy.hpp"
@@ -65,7 +66,6 @@ class Jpda {
   struct Range {
     std::size_t first_target, targets, first_link, links, points;
   };
-  std::uint32_t root(std::uint32_t target);
   void find_clusters(std::span<const JpdaPair> pairs);
   void number_points(std::span<const JpdaPair> pairs);
   void weigh(std::span<const double> log_missed, std::span<const JpdaPair> pairs, double log_ratio);
@@ -82,7 +82,8 @@ class Jpda {
   // Of the pairs at hand: `pair_begin_` by target, and what belongs to the clusters one after
   // another: targets, links (of pairs `link_pair_`), and their marginals.
   std::vector<std::size_t> pair_begin_;
-  std::vector<std::uint32_t> parent_, owner_, order_, target_of_, local_, link_pair_;
+  DisjointSets sets_;  // of targets
+  std::vector<std::uint32_t> owner_, order_, target_of_, local_, link_pair_;
   std::vector<Range> ranges_;
   std::vector<JpdaLink> links_;
   std::vector<double> weight_missed_, own_missed_, own_linked_;

@@ -91,18 +91,18 @@ void MultiscanJpda::carry_independent(std::uint32_t target, std::span<const std:
 
 /// Targets that shared no point of the window go their own ways.
 void MultiscanJpda::split(JointEvents& events) {
-  for (const std::uint32_t t : events.targets) parent_[t] = t;
+  for (const std::uint32_t t : events.targets) sets_.isolate(t);
   for (const Bond& bond : bonds_) {
     if (std::ranges::binary_search(events.targets, bond.a) &&
         std::ranges::binary_search(events.targets, bond.b)) {
-      join(bond.a, bond.b);
+      sets_.join(bond.a, bond.b);
     }
   }
   for (const std::uint32_t first : events.targets) {
-    if (root(first) != first) continue;
+    if (sets_.root(first) != first) continue;
     columns_.clear();
     for (std::size_t c = 0; c < events.targets.size(); ++c) {
-      if (root(events.targets[c]) == first) columns_.push_back(c);
+      if (sets_.root(events.targets[c]) == first) columns_.push_back(c);
     }
     const bool all = columns_.size() == events.targets.size();
     if (!all) project(events.view(), columns_, part_, memory_);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace glint {
@@ -98,28 +97,17 @@ JpdaReport MultiscanJpda::single_scan(const JpdaClutter& clutter) {
   return report;
 }
 
-std::uint32_t MultiscanJpda::root(std::uint32_t target) {
-  while (parent_[target] != target) target = parent_[target] = parent_[parent_[target]];
-  return target;
-}
-
-void MultiscanJpda::join(std::uint32_t a, std::uint32_t b) {
-  a = root(a), b = root(b);
-  parent_[std::max(a, b)] = std::min(a, b);
-}
-
 void MultiscanJpda::find_clusters() {
-  parent_.resize(targets());
-  std::iota(parent_.begin(), parent_.end(), 0u);
+  sets_.reset(targets());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    for (const std::uint32_t t : groups_[g].targets) join(t, groups_[g].targets.front());
+    for (const std::uint32_t t : groups_[g].targets) sets_.join(t, groups_[g].targets.front());
   }
   std::uint32_t points = 0;
   for (const JpdaPair& pair : pairs_) points = std::max(points, pair.point + 1);
   holder_.assign(points, kNobody);
   for (const JpdaPair& pair : pairs_) {
     std::uint32_t& holder = holder_[pair.point];
-    if (holder != kNobody) join(holder, pair.target);
+    if (holder != kNobody) sets_.join(holder, pair.target);
     holder = pair.target;
   }
   join_groups();
@@ -130,7 +118,7 @@ void MultiscanJpda::join_groups() {
   std::uint32_t count = 0;
   cluster_of_root_.assign(targets(), kNobody), cluster_of_group_.clear();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    std::uint32_t& n = cluster_of_root_[root(groups_[g].targets.front())];
+    std::uint32_t& n = cluster_of_root_[sets_.root(groups_[g].targets.front())];
     if (n == kNobody) n = count++;
     cluster_of_group_.push_back(n);
   }

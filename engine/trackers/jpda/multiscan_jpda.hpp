@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "glint/engine/trackers/jpda/disjoint_sets.hpp"
 #include "glint/engine/trackers/jpda/index_range.hpp"
 #include "glint/engine/trackers/jpda/joint_events.hpp"
 #include "glint/engine/trackers/jpda/jpda.hpp"
@@ -105,8 +106,6 @@ class MultiscanJpda {
     bool independent = false;  ///< too many to be listed
   };
   std::span<double> prior(std::size_t target) { return own_[target].of(prior_); }
-  std::uint32_t root(std::uint32_t target);
-  void join(std::uint32_t a, std::uint32_t b);
   JpdaReport single_scan(const JpdaClutter& clutter);
   void find_clusters();
   void join_groups();
@@ -136,7 +135,8 @@ class MultiscanJpda {
   std::vector<double> log_missed_, log_mean_;  // log_mean_: over the hypotheses, by option
   std::vector<double> single_;                 // marginals of the scan alone, by option
   std::vector<std::size_t> first_option_, first_, first_hypothesis_;
-  std::vector<std::uint32_t> parent_, holder_;
+  DisjointSets sets_;                  // of targets
+  std::vector<std::uint32_t> holder_;  // by point
   std::vector<Cluster> clusters_;
   JointGroups before_;  // by cluster
   ScanEvents events_;

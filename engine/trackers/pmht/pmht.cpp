@@ -27,11 +27,13 @@ ParticleBank bank_of(const MmpfPmhtConfig& config, const PmhtStart& start, std::
 
 template <class Config, class Bank>
 PmhtTracker<Config, Bank>::PmhtTracker(const Config& config, const Device&, std::uint64_t seed)
-    : config_(valid(config)), seed_(seed) {
-  settings_.origins.detection = config.detection;
-  settings_.variance = config.measurement_variance;
-  settings_.mixture = config.association == "mixture";
-  settings_.iterations = config.iterations, settings_.tolerance = config.tolerance;
+    : config_(valid(config)),
+      seed_(seed),
+      settings_{.origins = {.detection = config.detection},
+                .variance = config.measurement_variance,
+                .mixture = config.association == "mixture",
+                .iterations = config.iterations,
+                .tolerance = config.tolerance} {
   check(config);
 }
 

@@ -22,8 +22,8 @@ void pmht_gate(std::uint32_t target, const Eigen::Vector2d& expected, double gat
 
 /// Where the points of a scan come from: each, independently, from one target or from clutter.
 struct PmhtOrigins {
-  double detection = 0.95;  ///< pi of every target
-  double clutter = 0;       ///< lambda [1/px^2]; 0 = every point is a target's
+  double detection;    ///< pi of every target
+  double clutter = 0;  ///< lambda [1/px^2]; 0 = every point is a target's
 };
 
 /// E step. Probability that the point of each pair is of its target, P-PMHT (16) with a class for
@@ -75,13 +75,14 @@ double pmht_log_likelihood(const Gaussian<N>& predicted, const PmhtCentroid& cen
   return std::log(weight) + expected.log_density(position);
 }
 
+/// All are needed; PmhtConfig has the defaults.
 struct PmhtSettings {
   PmhtOrigins origins;
-  double variance = 9;   ///< R along each axis [px^2]
-  bool mixture = false;  ///< p_s mixes the models by their probabilities, P-MMPF (8); else model m
-                         ///< of a target competes with model m of the others
-  int iterations = 50;
-  double tolerance = 1e-3;  ///< ends when no position moves further [px]
+  double variance;   ///< R along each axis [px^2]
+  bool mixture;      ///< p_s mixes the models by their probabilities, P-MMPF (8); else model m of a
+                     ///< target competes with model m of the others
+  int iterations;    ///< at most
+  double tolerance;  ///< ends when no position moves further [px]
 };
 
 /// A model of a target before the scan.

@@ -52,6 +52,22 @@ TEST(Imm, MixesByHand) {
   EXPECT_NEAR(cv_of(imm, 1).mean(0), 10 * u, 1e-13);
 }
 
+TEST(Imm, AModelThatNothingLeadsToGoesOnAsItWas) {
+  Imm imm({cv(0, 1, 1), cv(10, 3, 2)}, staying(2, 1), {1, 0});
+  imm.mix();
+  EXPECT_EQ(imm.probability()[1], 0);
+  EXPECT_EQ(cv_of(imm, 1).mean(0), 10);
+  EXPECT_EQ(cv_of(imm, 1).covariance(0, 0), 2);
+}
+
+TEST(Imm, ModelsThatMayBeLeftShareWhatTheStayingLeaves) {
+  const Switching three = staying(3, 0.9);
+  EXPECT_EQ(three(0, 0), 0.9);
+  EXPECT_NEAR(three(0, 1), 0.05, 1e-15);
+  EXPECT_NEAR(three.row(2).sum(), 1, 1e-15);
+  EXPECT_EQ(staying(1, 0.9)(0, 0), 1);
+}
+
 TEST(Imm, MixingKeepsTheMomentsOfTheWholeMixture) {
   Imm imm({cv(0, 1, 1), cv(10, 3, 2)}, rows(.7, .3, .2, .8), {.3, .7});
   const Gaussian<4> before = imm.combined();

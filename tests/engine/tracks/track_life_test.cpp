@@ -49,6 +49,57 @@ TEST(TrackLifeByHits, DoesNotKnowHowLikelyTheTargetExists) {
   EXPECT_TRUE(std::isnan(life.existence()));
 }
 
+TEST(TrackLife, ExistenceIsBayesRule) {
+  TrackLifeConfig config;
+  config.survival = 0.9, config.birth_existence = 0.2;
+  TrackLife life(config, false);
+  life.see(config, true, 10, 2);
+  const double predicted = 0.2 * 0.81;
+  EXPECT_NEAR(life.existence(), 10 * predicted / (10 * predicted + 1 - predicted), 1e-14);
+}
+
+TEST(TrackLife, ConfirmsByHitsAndExistenceTogetherInTime) {
+  TrackLifeConfig config;
+  config.confirm_hits = 4, config.confirm_window = 5;
+  TrackLife seen(config, false), unlikely(config, false), missed(config, false);
+  for (int scan = 0; scan < 2; ++scan) {
+    EXPECT_EQ(seen.status(), TrackStatus::tentative);
+    seen.see(config, true, 20, 1), unlikely.see(config, true, 1, 1),
+        missed.see(config, false, 20, 1);
+  }
+  EXPECT_EQ(seen.status(), TrackStatus::confirmed);
+  EXPECT_EQ(unlikely.status(), TrackStatus::tentative);
+  unlikely.see(config, true, 1, 1), missed.see(config, false, 20, 1);
+  EXPECT_TRUE(unlikely.over());
+  EXPECT_TRUE(missed.over());
+}
+
+TEST(TrackLife, EndsByMissesOrByExistenceUnlessTold) {
+  TrackLifeConfig config;
+  config.halt_misses = 3, config.halt_existence = 0.02;
+  TrackLife misses(config, true), fades(config, true);
+  for (int scan = 0; scan < 2; ++scan)
+    misses.see(config, false, 1, 1), fades.see(config, true, 0.01, 1);
+  EXPECT_FALSE(misses.over());
+  EXPECT_TRUE(fades.over());
+  misses.see(config, false, 1, 1);
+  EXPECT_TRUE(misses.over());
+  config.halt_misses = 0, config.halt_existence = 0;
+  TrackLife stays(config, true);
+  for (int scan = 0; scan < 50; ++scan) stays.see(config, false, 0.05, 1);
+  EXPECT_EQ(stays.status(), TrackStatus::confirmed);
+}
+
+TEST(TrackLife, MissesCountInARow) {
+  TrackLifeConfig config;
+  config.halt_misses = 3;
+  TrackLife life(config, true);
+  for (const bool hit : {false, false, true, false, false}) life.see(config, hit, 1, 1);
+  EXPECT_FALSE(life.over());
+  life.see(config, false, 1, 1);
+  EXPECT_TRUE(life.over());
+}
+
 TEST(TrackLife, MoreHitsThanTheWindowHoldsAreRefused) {
   EXPECT_THROW(check(HitLogic{.confirm_hits = 5, .confirm_window = 4}), ConfigError);
   EXPECT_NO_THROW(check(HitLogic{.confirm_hits = 4, .confirm_window = 4}));

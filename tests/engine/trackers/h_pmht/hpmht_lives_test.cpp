@@ -43,6 +43,8 @@ class Film {
       tracker.step(scan, log);
     }
   }
+  /// The next frame is this one.
+  void skip_to(int frame) { next_ = frame; }
   HPmht tracker;
   TrackLog log;
 
@@ -88,6 +90,35 @@ TEST(HPmhtLives, ATargetExplainsAllThatItGives) {
   EXPECT_NEAR(film.log.at(7)[0].intensity, kIntensity, 0.1 * kIntensity);
   EXPECT_NEAR(film.log.at(7)[0].x, 17, 0.1);
   EXPECT_NEAR(film.log.at(7)[0].y, 15.5, 0.1);
+}
+
+// Four frames on, the target is 12 px away: a guess that is a step of 3 px off sees nothing of it.
+TEST(HPmhtLives, TracksMoveOnByAsManyFramesAsLieBetweenTwoScans) {
+  HPmhtConfig config = noiseless();
+  config.initiate = false;
+  Film film(config, {target(0, 30, {5, 12, 3, 0})});
+  film.tracker.start(5, 12, 3, 0);
+  film.until(6);
+  film.skip_to(9);
+  film.until(10);
+  ASSERT_EQ(film.log.at(9).size(), 1u);
+  EXPECT_NEAR(film.log.at(9)[0].x, 5 + 3 * 9, 0.1);
+  EXPECT_NEAR(film.log.at(9)[0].intensity, kIntensity, 0.1 * kIntensity);
+}
+
+// The prior of a candidate is where the two points put it a step before the first, and weighs as
+// much as a scan where all of the frame's shots count.
+TEST(HPmhtLives, ACandidatesPriorLiesOnTheLineOfItsTwoPoints) {
+  HPmhtConfig config = noiseless();
+  config.sensor_area = 1e9;
+  Film film(config, {target(0, 30, {10, 12, 2, 1})});
+  film.until(5);
+  const auto points = film.log.revised();
+  ASSERT_EQ(points.size(), 5u);
+  for (const TrackPoint& p : points) {
+    EXPECT_NEAR(p.x, 10 + 2 * static_cast<double>(p.frame), 0.2) << p.frame;
+    EXPECT_NEAR(p.y, 12 + static_cast<double>(p.frame), 0.2) << p.frame;
+  }
 }
 
 // A pair of frames makes a candidate, which is confirmed at its fifth and traced back to its first.

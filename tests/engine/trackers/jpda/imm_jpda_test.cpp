@@ -181,6 +181,34 @@ TEST_P(ImmJpdaOf, TheOrderOfPointsDoesNotMatter) {
 }
 
 // A window of one scan starts anew from the last estimate, whichever way it is read.
+TEST(ImmJpda, AKnownTargetIsAsUncertainAsTold) {
+  ImmJpdaConfig config = known_targets();
+  config.position_sd = 2, config.velocity_sd = 3;
+  Player player(config);
+  player.tracker.start(5, 7, 1, 0);
+  player.scan(0, {});
+  EXPECT_NEAR(player.now()[0].var_x, 4, 1e-12);
+  player.scan(1, {});
+  EXPECT_NEAR(player.now()[0].x, 6, 1e-12);
+  EXPECT_NEAR(player.now()[0].var_x, 4 + 9, 0.1);  // and process noise
+  EXPECT_NEAR(player.now()[0].cov_xy, 0, 1e-12);
+}
+
+// At scan 3 the tentative track at x = 6 has the confirmed one's point within its gate.
+TEST(ImmJpda, ATentativeTrackGetsNoPointThatAConfirmedOneHas) {
+  ImmJpdaConfig config;
+  config.clutter_density = 1e-4, config.separation = 0.01;
+  Player player(config);
+  player.tracker.start(0, 0, 0, 0);
+  player.scan(0, {at(0, 0)});
+  for (int k = 1; k < 3; ++k) player.scan(k, {at(0, 0), at(6, 0)});
+  ASSERT_EQ(player.now().size(), 2u);
+  EXPECT_EQ(player.now()[1].status, TrackStatus::tentative);
+  player.scan(3, {at(0, 0)});
+  ASSERT_EQ(player.now().size(), 2u);
+  EXPECT_NEAR(player.now()[1].x, 6, 1e-9);
+}
+
 TEST(ImmJpda, AWindowOfOneScanHasOneReading) {
   ImmJpdaConfig config = known_targets();
   config.reading = WindowReading::restart;

@@ -173,13 +173,16 @@ struct Problem {
   std::vector<Gaussian<4>> priors;
   std::vector<PmhtMode> modes;
   std::size_t models;
-  PmhtSettings settings;
+  PmhtSettings settings{.origins = kOrigins,
+                        .variance = kVariance,
+                        .mixture = false,
+                        .iterations = 50,
+                        .tolerance = 1e-3};
   PmhtEm em{};
   std::vector<PmhtPair> pairs{};
 
   Problem(const Points& at, std::vector<double> probability, std::size_t models_of_each)
       : models(models_of_each) {
-    settings.origins = kOrigins, settings.variance = kVariance;
     for (std::size_t i = 0; i < at.size(); ++i) {
       priors.push_back(predicted(at[i]));
       modes.push_back({at[i], probability[i]});

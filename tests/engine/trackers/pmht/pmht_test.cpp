@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -227,58 +228,28 @@ TEST(Pmht, BanksAreWhatTheirNamesSay) {
   EXPECT_THROW(Pmht(config, Device::serial(), 1), ConfigError);
 }
 
-TEST(TrackLife, ExistenceIsBayesRule) {
-  TrackLifeConfig config;
-  config.survival = 0.9, config.birth_existence = 0.2;
-  TrackLife life(config, false);
-  life.see(config, true, 10, 2);
-  const double predicted = 0.2 * 0.81;
-  EXPECT_NEAR(life.existence(), 10 * predicted / (10 * predicted + 1 - predicted), 1e-14);
+// (0.05 x 0.99) / (0.01 + 0.05 x 0.99): the target survives with .99 and is missed with .05.
+TEST(Pmht, AMissLowersExistenceByBayesRule) {
+  PointRun run(told());
+  run.tracker.start(20, 50, 3, 1);
+  run.step(0, {straight(0)});
+  run.step(1, {});
+  EXPECT_NEAR(run.at(1)[0].existence, 0.0495 / 0.0595, 1e-12);
 }
 
-TEST(TrackLife, ConfirmsByHitsAndExistenceTogetherInTime) {
-  TrackLifeConfig config;
-  config.confirm_hits = 4, config.confirm_window = 5;
-  TrackLife seen(config, false), unlikely(config, false), missed(config, false);
-  for (int scan = 0; scan < 2; ++scan) {
-    EXPECT_EQ(seen.status(), TrackStatus::tentative);
-    seen.see(config, true, 20, 1), unlikely.see(config, true, 1, 1),
-        missed.see(config, false, 20, 1);
+// Nearer than `separation` for some of every eight scans, ten or more in all; merge_scans is 8.
+TEST(Pmht, TwoThatAreNearNowAndThenStayTwo) {
+  PmhtConfig config = told();
+  config.measurement_variance = 1, config.gate = 8, config.separation = 20;
+  PointRun run(config);
+  run.tracker.start(20, 50, 3, 0), run.tracker.start(20, 74, 3, -2);
+  constexpr std::array kApart{24, 22, 20, 18, 18, 20, 22, 24};
+  for (int frame = 0; frame < 40; ++frame) {
+    const float x = 20 + 3 * static_cast<float>(frame);
+    const auto apart = static_cast<float>(kApart[static_cast<std::size_t>(frame % 8)]);
+    run.step(frame, {{x, 50, 8}, {x, 50 + apart, 8}});
   }
-  EXPECT_EQ(seen.status(), TrackStatus::confirmed);
-  EXPECT_EQ(unlikely.status(), TrackStatus::tentative);
-  unlikely.see(config, true, 1, 1), missed.see(config, false, 20, 1);
-  EXPECT_TRUE(unlikely.over());
-  EXPECT_TRUE(missed.over());
-}
-
-TEST(TrackLife, EndsByMissesOrByExistenceUnlessTold) {
-  TrackLifeConfig config;
-  config.halt_misses = 3, config.halt_existence = 0.02;
-  TrackLife misses(config, true), fades(config, true);
-  for (int scan = 0; scan < 2; ++scan)
-    misses.see(config, false, 1, 1), fades.see(config, true, 0.01, 1);
-  EXPECT_FALSE(misses.over());
-  EXPECT_TRUE(fades.over());
-  misses.see(config, false, 1, 1);
-  EXPECT_TRUE(misses.over());
-  config.halt_misses = 0, config.halt_existence = 0;
-  TrackLife stays(config, true);
-  for (int scan = 0; scan < 50; ++scan) stays.see(config, false, 0.05, 1);
-  EXPECT_EQ(stays.status(), TrackStatus::confirmed);
-}
-
-TEST(TwoPointStarts, TakeTheBrightestThenTheNearestAndEachPointOnce) {
-  TwoPointStarts starts;
-  const std::vector<FreePoint> before{{{0, 0}, 5}, {{3, 0}, 5}, {{50, 50}, 9}};
-  const std::vector<FreePoint> now{{{1, 0}, 5}, {{3.5, 0}, 6}, {{2, 1}, 5}};
-  const auto found = starts.find(before, now, 4);
-  ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0].now.position, now[1].position);  // 11, and nearer to the second
-  EXPECT_EQ(found[0].before.position, before[1].position);
-  EXPECT_EQ(found[1].now.position, now[0].position);
-  EXPECT_EQ(found[1].before.position, before[0].position);
-  EXPECT_TRUE(starts.find(before, {}, 4).empty());
+  EXPECT_EQ(run.at(39).size(), 2u);
 }
 
 }  // namespace
