@@ -164,6 +164,23 @@ TEST(MultiscanJpda, ARemovedTargetLeavesTheOthersAsTheyWere) {
   }
 }
 
+// The last two share a point, and stay together for two scans more.
+TEST(MultiscanJpda, TargetsBehindARemovedOneStayBound) {
+  const std::vector<std::uint32_t> far{0}, shared{1}, none;
+  const std::vector<double> weights{-2, 0};
+  MultiscanJpda jpda(exactly());
+  jpda.add(), jpda.add(), jpda.add();
+  jpda.run(std::vector<TargetScan>{{far, weights}, {shared, weights}, {shared, weights}}, {});
+  jpda.advance(together(jpda), 2);
+  jpda.remove(0);
+  for (const std::size_t clusters : {1U, 1U, 2U}) {
+    const std::vector<double> first(jpda.hypotheses(0)), second(jpda.hypotheses(1));
+    EXPECT_EQ(jpda.run(std::vector<TargetScan>{{none, first}, {none, second}}, {}).clusters,
+              clusters);
+    jpda.advance(together(jpda), 2);
+  }
+}
+
 TEST(MultiscanJpda, ACrowdTooLargeForAListIsTakenScanByScan) {
   std::mt19937 random(6);
   MultiscanJpda jpda(MultiscanSettings{});

@@ -143,6 +143,32 @@ TEST(Viterbi, WhatALaterWindowSaysChangesOnlyPointsThatAreNotSettled) {
   }
 }
 
+/// A tracker after frames that are dark but for the pixel (20, 15), which shows `light[k]`.
+TrackLog after_light(const std::vector<float>& light) {
+  Viterbi tracker(config_for(16), Device::serial(), 1);
+  TrackLog log;
+  for (std::size_t k = 0; k < light.size(); ++k) {
+    Image<float> image(40, 40);
+    image.view()(20, 15) = light[k];
+    Scan scan;
+    scan.frame = static_cast<std::int64_t>(k), scan.time = static_cast<double>(k);
+    scan.whitened = Frame(std::move(image));
+    tracker.step(scan, log);
+  }
+  return log;
+}
+
+// The track ends at frame 11, four frames after its last point at 7, which is in the window until
+// frame 14: until then a path near it is no new track, though it shares but a frame or two with it.
+TEST(Viterbi, WhatIsNearAHaltedTrackInTheWindowIsNoNewTrack) {
+  std::vector<float> light(20, 30);
+  std::fill_n(light.begin() + 8, 4, 0.0F);
+  const auto tracks = by_track(after_light(light).online());
+  ASSERT_EQ(tracks.size(), 2u);
+  EXPECT_EQ(tracks.at(1).back().frame, 11);
+  EXPECT_EQ(tracks.at(2).front().frame, 15);
+}
+
 TEST(Viterbi, RefusesACommonStretchLongerThanItsWindow) {
   ViterbiConfig config;
   config.window = 4, config.common_frames = 5;
