@@ -69,6 +69,17 @@ TEST(Detector, FindsAClusterAtEachTarget) {
   EXPECT_TRUE(s.detector.find(0.8).empty());
 }
 
+// Births fill 3x3 pixels; a box of 2 x .6 px a side holds 1.44 of their 9.
+TEST(Detector, TakesTheRadiusOfAClusterFromTheSettings) {
+  DetectorConfig config = config_of();
+  config.cluster_radius = 0.6;
+  Search s(config);
+  s.update({{8, 10}});
+  const auto found = s.detector.find(0.05);
+  ASSERT_FALSE(found.empty());
+  EXPECT_NEAR(found[0].peak.mass, shared(3) * 1.44 / 9, 0.02);
+}
+
 TEST(Detector, RemovesAClusterAndNoOther) {
   Search s(config_of());
   s.update({{8, 10}, {30, 25}});

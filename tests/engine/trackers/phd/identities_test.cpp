@@ -92,6 +92,14 @@ TEST(Identities, ATenthOfTheWeightIsNoLabel) {
   EXPECT_EQ(tracks.see({{30, 0, {{0, 0.87F}, {1, 0.13F}}}}), Labels{1});
 }
 
+TEST(Identities, APeakWithoutALabelTakesTheNearestLostTrack) {
+  IdentityConfig config;
+  config.separation = 0;
+  Tracks tracks(config);
+  EXPECT_EQ(tracks.see({{10}, {13}}), (Labels{1, 2}));
+  EXPECT_EQ(tracks.see({{12.5}}), Labels{2});
+}
+
 TEST(Identities, ANewTrackKeepsItsDistance) {
   Tracks tracks;
   EXPECT_EQ(tracks.see({{10}, {15.9}, {16.1}}), (Labels{1, 0, 2}));

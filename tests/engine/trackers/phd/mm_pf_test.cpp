@@ -49,6 +49,19 @@ TEST(MmPf, AStricterTestDeclaresLater) {
             first_frame(track<MmPf>(scene, strict).online()));
 }
 
+// The odds are in proportion to it, and so is what they are compared with.
+TEST(MmPf, TheMassOfBirthsDoesNotDelayDeclarations) {
+  MmPfConfig many = config_for(12), few = many;
+  many.birth_mass = 1e-3, few.birth_mass = 1e-7;
+  const Scene scene = one_target(12, 3, 30);
+  std::int64_t later = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    later += first_frame(track<MmPf>(scene, few, seed).online()) -
+             first_frame(track<MmPf>(scene, many, seed).online());
+  }
+  EXPECT_NEAR(static_cast<double>(later) / 8, 0, 0.3);
+}
+
 TEST(MmPf, EndsATrackWhoseTargetVanishes) {
   const TrackLog log = track<MmPf>(one_target(16, 2, 15), config_for(16));
   EXPECT_TRUE(any_halted(log));

@@ -196,6 +196,14 @@ TEST(Peaks, MoveToTheMeanOfTheirParticles) {
   EXPECT_NEAR(peaks[0].x, 22.42, 1e-5);
 }
 
+// A window that holds enough mass is no peak if the box of the cluster does not.
+TEST(Peaks, HaveTheLeastMassInTheirOwnBox) {
+  const Particles p = clouds({{20, 10, 0.3, 100}, {22, 10, 0.3, 100}});
+  PeakFinder finder;
+  EXPECT_EQ(find(p, finder).size(), 1U);
+  EXPECT_TRUE(find(p, finder, {.threshold = 0.5, .radius = 0.9}).empty());
+}
+
 TEST(Peaks, HoldTheParticlesOfTheirBoxAlone) {
   const Particles p = clouds({{20, 10, 0.8, 200}, {26, 10, 0.2, 50}});
   PeakFinder finder;

@@ -71,6 +71,15 @@ TEST(PhdFilter, DividesByTheClutter) {
   EXPECT_NEAR(f.phd.expected(), 1.0 / (3 + 1), 1e-3);
 }
 
+// As printed in P-PHD (15)-(16): each of the nine pixels shares its own ninth of gamma alone.
+TEST(PhdFilter, OfCellsSharesEachPixelByItself) {
+  PhdFilterConfig config = config_of();
+  config.psi = "cell";
+  Filter f(config);
+  f.update(bright_at({{20, 15}}));
+  EXPECT_NEAR(f.phd.expected(), 9 * (1.0 / 9) / (1 + 1.0 / 9), 5e-3);
+}
+
 // P-PHD (11): survivors keep e w, so n' = e n / (1 + e n) with no births and l = 1.
 TEST(PhdFilter, LetsTargetsSurviveWithTheirProbability) {
   PhdFilterConfig config = config_of();
@@ -113,6 +122,15 @@ TEST(PhdFilter, ResamplesToEqualWeightsOfTheSameSum) {
   for (const float w : g.phd.particles().weight) {
     ASSERT_NEAR(w, before / static_cast<double>(g.phd.size()), 1e-7);
   }
+}
+
+TEST(PhdFilter, KeepsNoMoreThanTheMostParticles) {
+  PhdFilterConfig config = config_of();
+  config.particles_max = 120;
+  Filter f(config);
+  f.update(bright_at({{20, 15}}));
+  f.phd.resample(f.frame);
+  EXPECT_EQ(f.phd.size(), 120U);
 }
 
 TEST(PhdFilter, MovesItsParticlesAtTheirVelocities) {

@@ -139,6 +139,17 @@ TEST(SmcPhd, ReportsVelocityInPixelsPerSecond) {
   EXPECT_NEAR(last[0].vy, 3, 3);
 }
 
+// In noise n rounds to 0 classes of k-means, while any peak of a hundredth of a target counts.
+TEST(SmcPhd, MakesTargetsByKmeansOrByPeaks) {
+  SmcPhdConfig config = paper_config(12);
+  config.existence = 0.01;
+  const Scene noise = scene_of({}, 15);
+  config.states = "kmeans";
+  EXPECT_TRUE(track(noise, config).log.online().empty());
+  config.states = "peaks";
+  EXPECT_FALSE(track(noise, config).log.online().empty());
+}
+
 /// Mean of the reported var_x.
 double mean_variance(double noise_adaptation) {
   SmcPhdConfig config = paper_config(18);

@@ -46,7 +46,7 @@ std::vector<std::uint32_t> all_of(const Particles& p) {
   return members;
 }
 
-TargetFilters clouds(const MotionBank& bank) {
+TargetFilters filters_of(const MotionBank& bank) {
   TargetFilters c(bank, kCount, Device::tbb(2), 5);
   c.set_appearance(appearance());
   return c;
@@ -62,9 +62,9 @@ Scene two_targets() {
   return s;
 }
 
-TEST(TargetFilters, FollowsEachTargetWithItsOwnCloud) {
+TEST(TargetFilters, FollowsEachTargetWithItsOwnParticles) {
   const Scene scene = two_targets();
-  TargetFilters c = clouds(motion_bank("cv", 1e-3, 0));
+  TargetFilters c = filters_of(motion_bank("cv", 1e-3, 0));
   for (const auto& t : truth_at(scene, 0)) {
     const Particles p = around(t.x, t.y, t.vx, t.vy);
     c.add(p, all_of(p), 0);
@@ -88,8 +88,8 @@ TEST(TargetFilters, AnswersForOneTargetDoNotDependOnTheOthersBehindIt) {
   const Scene scene = two_targets();
   const auto first = truth_at(scene, 0)[0];
   const Particles p = around(first.x, first.y, first.vx, first.vy);
-  TargetFilters alone = clouds(motion_bank("cv", 1e-3, 0));
-  TargetFilters beside = clouds(motion_bank("cv", 1e-3, 0));
+  TargetFilters alone = filters_of(motion_bank("cv", 1e-3, 0));
+  TargetFilters beside = filters_of(motion_bank("cv", 1e-3, 0));
   alone.add(p, all_of(p), 0);
   beside.add(p, all_of(p), 0);
   beside.add(p, all_of(p), 0);
@@ -103,7 +103,7 @@ TEST(TargetFilters, NoiseAloneMakesTheMeanRatioSmall) {
   Scene scene = two_targets();
   const Particles p = around(30, 20, 0, 0);
   scene.targets.clear();
-  TargetFilters c = clouds(motion_bank("cv", 1e-3, 0));
+  TargetFilters c = filters_of(motion_bank("cv", 1e-3, 0));
   c.add(p, all_of(p), 0);
   c.predict(1, 1);
   EXPECT_LT(c.update(Frame(render(scene, 3, 1)), 1)[0].mean_ratio, 0.5);
@@ -111,7 +111,7 @@ TEST(TargetFilters, NoiseAloneMakesTheMeanRatioSmall) {
 
 TEST(TargetFilters, OutOfViewHasNoEstimate) {
   const Particles p = around(-50, 20, 0, 0);
-  TargetFilters c = clouds(motion_bank("cv", 1e-3, 0));
+  TargetFilters c = filters_of(motion_bank("cv", 1e-3, 0));
   c.add(p, all_of(p), 0);
   const auto update = c.update(Frame(Image<float>(40, 40)), 1)[0];
   EXPECT_EQ(update.mean_ratio, 0);
@@ -200,7 +200,7 @@ TEST(TargetFilters, ReversingTurnsBothVelocities) {
 }
 
 TEST(TargetFilters, RemovingMovesTheLaterOnesUp) {
-  TargetFilters c = clouds(motion_bank("cv", 1e-3, 0));
+  TargetFilters c = filters_of(motion_bank("cv", 1e-3, 0));
   for (const double x : {10.0, 20.0, 30.0}) {
     const Particles p = around(x, 20, 0, 0);
     c.add(p, all_of(p), 0);
@@ -214,16 +214,16 @@ TEST(TargetFilters, RemovingMovesTheLaterOnesUp) {
 TEST(TargetFilters, TimeTurnedRoundLeadsBackToTheStart) {
   // No process noise: a turn there and back ends where it began.
   const MotionBank bank = motion_bank("cv+ct", 0, 0.2);
-  TargetFilters there = clouds(bank);
+  TargetFilters there = filters_of(bank);
   Particles p = around(20, 20, 1, 0.5);
   for (auto& mode : p.mode) mode = 1;
   MotionBank stay = bank;
   stay.switching = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  there = clouds(stay);
+  there = filters_of(stay);
   there.add(p, all_of(p), 0);
   const std::vector<float> x0(there.particles().x.begin(), there.particles().x.end());
   for (int k = 1; k <= 5; ++k) there.predict(k, 1);
-  TargetFilters back = clouds(reversed(stay));
+  TargetFilters back = filters_of(reversed(stay));
   back.add(there, 0);
   back.reverse_velocities();
   for (int k = 1; k <= 5; ++k) back.predict(k, 1);
