@@ -7,15 +7,15 @@
 
 #include <Eigen/Core>
 
+#include "glint/engine/point_measurement.hpp"
 #include "glint/engine/scenario/path.hpp"
-#include "glint/kernels/find_points/find_points.hpp"
 
 namespace glint::bench {
 
 /// Scans of points with targets that are known at the first, one a frame.
 struct PointScans {
   std::vector<Kinematics> starts;  ///< at the first scan
-  std::vector<std::vector<Point>> points;
+  std::vector<std::vector<PointMeasurement>> points;
   double clutter_density = 0;  ///< [1/px^2]
 };
 /// P-PMHT section 4: forty targets over 1024x256 pixels, which cross, false points in

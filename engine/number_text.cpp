@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/engine/number_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -20,6 +21,16 @@ void append_number(std::string& out, double x) {
   out += 'e';
   if (text[e + 1] == '-') out += '-';
   out += text.substr(text.find_first_not_of("+-0", e + 1));
+}
+
+void append_rounded(std::string& out, double x, int significant, int decimals) {
+  if (!std::isfinite(x) || x == 0) return append_number(out, x);
+  const int before = static_cast<int>(std::floor(std::log10(std::abs(x)))) + 1;
+  const int digits = std::min(std::max(significant, before + decimals), 17);
+  char buffer[32];
+  const std::to_chars_result end =
+      std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, digits);
+  out.append(buffer, end.ptr);
 }
 
 std::string number_text(double x) {

@@ -10,6 +10,10 @@ namespace glint {
 std::string number_text(double x);
 /// Appends number_text(x).
 void append_number(std::string& out, double x);
+/// Appends `x` to `significant` digits, or to more if it takes them for `decimals` behind the
+/// point, but no more than the 17 that a double has; zeros at the end are left out. "nan" for every
+/// NaN.
+void append_rounded(std::string& out, double x, int significant, int decimals);
 /// `text` as a TOML basic string, quotes included.
 std::string quoted(std::string_view text);
 

@@ -17,7 +17,7 @@ struct Token {
   std::int64_t frame = 0;
   std::optional<SourceFrame> source;
   Scan scan;
-  std::vector<Point> points;  // what scan.points shows
+  std::vector<PointMeasurement> points;  // what scan.points shows
   std::vector<std::vector<TrackPoint>> reported;
   bool failed = false;       // not to be delivered: its own failure, or an earlier frame's
   std::exception_ptr error;  // its own

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
+#include "glint/engine/point_measurement.hpp"
 #include "glint/kernels/core/frame.hpp"
-#include "glint/kernels/find_points/find_points.hpp"
 
 namespace glint {
 
@@ -16,7 +16,8 @@ struct Scan {
   Frame whitened;  ///< z = polarity (I - background) / sigma, unit noise; masked pixels are 0
   double noise_sigma = 1;             ///< median of the noise map [grey levels]
   double sensor_x = 0, sensor_y = 0;  ///< where it stands, for points of range and azimuth [px]
-  std::span<const Point> points;      ///< of this frame; only if some tracker feeds on points
+  std::span<const PointMeasurement>
+      points;          ///< of this frame; only if some tracker feeds on points
   bool looked = true;  ///< false: the sensor of points did not look, which is no miss
 };
 

@@ -18,7 +18,7 @@ struct SourceFrame {
   std::shared_ptr<const void> owner;  ///< keeps the pixels alive; let go of on any thread
   double time = 0;                    ///< [s]
   /// Given by sources that know the points; without them they are looked for in the pixels.
-  std::optional<std::vector<Point>> points;
+  std::optional<std::vector<PointMeasurement>> points;
   double sensor_x = 0, sensor_y = 0;  ///< where that which saw the points stands [px]
   bool looked = true;  ///< false: it did not look; trackers of points alone pass the frame over
   std::int64_t skipped = 0;  ///< frames lost since the one before

@@ -78,7 +78,7 @@ class NoiseRuns {
     const Device device = options_.device == DeviceKind::serial ? Device::serial() : Device::tbb(1);
     const auto tracker = find_tracker(threshold_.tracker).make(config_, device, seed);
     PointFinder finder(options_.points, device);
-    std::vector<Point> points;
+    std::vector<PointMeasurement> points;
     TrackLog log;
     for (int k = 0; k < scene_.frames; ++k) {
       Scan scan = whitened_scan(scene_, seed, k);

@@ -32,17 +32,17 @@ struct Run {
   double lost = 0, swapped = 0;  ///< 1 or 0, at the end
 };
 
-std::vector<Point> echoes(double time, int scan, std::uint64_t seed) {
+std::vector<PointMeasurement> echoes(double time, int scan, std::uint64_t seed) {
   const RandomKey key = random_key(seed, static_cast<std::uint64_t>(scan), Purpose::scenario);
   const bool one = time >= kMerge && time < kPart;
-  std::vector<Point> points;
+  std::vector<PointMeasurement> points;
   for (std::uint32_t target = one ? 1 : 0; target < 2; ++target) {
     const auto seen = static_cast<double>(uniform(random_words(key, target, 1).w[0]));
     if (seen > kDetection) continue;
     const Normals4 n = random_normals(key, target);
     const double x = kSpeed * time + kSigma * static_cast<double>(n.n[0]);
     const double y = kApart * target + kSigma * static_cast<double>(n.n[1]);
-    points.push_back({static_cast<float>(x), static_cast<float>(y), 10});
+    points.push_back({x, y, 10});
   }
   return points;
 }
@@ -57,7 +57,7 @@ Run follow(const JpdaReading& reading, std::uint64_t seed) {
   int merged = 0, after = 0;
   for (int k = 0; k * kPeriod < kEnd; ++k) {
     const double time = k * kPeriod;
-    const std::vector<Point> points = echoes(time, k, seed);
+    const std::vector<PointMeasurement> points = echoes(time, k, seed);
     Scan scan;
     scan.frame = k, scan.time = time, scan.points = points;
     tracker.step(scan, log);

@@ -45,8 +45,9 @@ void start_on_two_points(T& tracker, const Scene& scene, const PointSensor& sens
                          std::uint64_t seed) {
   const auto first = truth_at(scene, 0), second = truth_at(scene, 1);
   for (std::size_t s = 0; s < first.size(); ++s) {
-    const Point a = point_of(first[s], sensor, seed), b = point_of(second[s], sensor, seed);
-    tracker.start(b.x, b.y, static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y));
+    const PointMeasurement a = point_of(first[s], sensor, seed),
+                           b = point_of(second[s], sensor, seed);
+    tracker.start(b.x, b.y, b.x - a.x, b.y - a.y);
   }
 }
 
@@ -58,7 +59,7 @@ FollowedRun follow(const Scene& scene, const PointSensor& sensor, const Config& 
   std::vector<Score> scores(scene.targets.size());
   TrackLog log;
   for (int frame = 1; frame < scene.frames; ++frame) {
-    const std::vector<Point> points = points_at(scene, sensor, seed, frame);
+    const std::vector<PointMeasurement> points = points_at(scene, sensor, seed, frame);
     Scan scan;
     scan.frame = frame, scan.time = frame * scene.interval, scan.points = points;
     tracker.step(scan, log);

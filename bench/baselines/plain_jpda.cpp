@@ -32,9 +32,9 @@ std::vector<Eigen::Vector4d> PlainJpda::states() const {
   return states;
 }
 
-void PlainJpda::step(std::span<const Point> points) {
+void PlainJpda::step(std::span<const PointMeasurement> points) {
   points_.clear();
-  for (const Point& p : points) points_.emplace_back(Eigen::Vector2d(p.x, p.y));
+  for (const PointMeasurement& p : points) points_.emplace_back(Eigen::Vector2d(p.x, p.y));
   for (Target& target : targets_) predict(target);
   std::vector<Group> next;
   for (const std::vector<int>& cluster : clusters()) {

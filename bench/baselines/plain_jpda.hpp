@@ -18,7 +18,7 @@ class PlainJpda {
   explicit PlainJpda(const ImmJpdaConfig& config) : config_(config) {}
   /// A target at (x, y) [px] with velocity (vx, vy) [px/frame] one frame before the first scan.
   void start(double x, double y, double vx, double vy);
-  void step(std::span<const Point> points);
+  void step(std::span<const PointMeasurement> points);
   std::vector<Eigen::Vector4d> states() const;  ///< [x vx y vy], in the order of start()
 
  private:

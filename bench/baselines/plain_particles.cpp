@@ -66,7 +66,7 @@ PlainParticles::Cloud PlainParticles::draw(const PlainGaussian& belief) {
   return cloud;
 }
 
-void PlainParticles::step(std::span<const Point> points) {
+void PlainParticles::step(std::span<const PointMeasurement> points) {
   for (Target& target : targets_) move(target);
   PlainWeights weights = predict(points);
   for (int i = 0; i < config_.iterations; ++i) {
@@ -89,7 +89,7 @@ void PlainParticles::move(Target& target) {
   }
 }
 
-PlainWeights PlainParticles::predict(std::span<const Point> points) {
+PlainWeights PlainParticles::predict(std::span<const PointMeasurement> points) {
   const auto targets = static_cast<Index>(targets_.size());
   const std::size_t models = targets_[0].clouds.size();
   MatrixXd expected(2, targets), probability(targets, static_cast<Index>(models));

@@ -18,7 +18,7 @@ class PlainParticles {
       : config_(config), random_(seed) {}
   /// A target at (x, y) [px] with velocity (vx, vy) [px/frame] one frame before the first scan.
   void start(double x, double y, double vx, double vy);
-  void step(std::span<const Point> points);
+  void step(std::span<const PointMeasurement> points);
   std::vector<Eigen::Vector4d> states() const;  ///< [x vx y vy], in the order of start()
 
  private:
@@ -32,7 +32,7 @@ class PlainParticles {
   Cloud draw(const PlainGaussian& belief);
   Eigen::VectorXd noise(const Eigen::MatrixXd& root);
   void move(Target& target);
-  PlainWeights predict(std::span<const Point> points);
+  PlainWeights predict(std::span<const PointMeasurement> points);
   double iterate(PlainWeights& weights, bool first);
   /// Weights of a cloud, the nearest particle's 1, and its squared distance over the variance.
   std::pair<std::vector<double>, double> weigh(const Cloud& cloud, const Eigen::Vector3d& at) const;

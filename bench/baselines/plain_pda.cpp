@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-VectorXd place_of(const Point& point) { return Eigen::Vector2d(point.x, point.y); }
+VectorXd place_of(const PointMeasurement& point) { return Eigen::Vector2d(point.x, point.y); }
 
 }  // namespace
 
@@ -32,14 +32,15 @@ std::vector<Eigen::Vector4d> PlainPda::states() const {
   return states;
 }
 
-void PlainPda::step(std::span<const Point> points) {
+void PlainPda::step(std::span<const PointMeasurement> points) {
   const MatrixXd noise = config_.measurement_variance * MatrixXd::Identity(2, 2);
   double threshold = std::numeric_limits<double>::infinity();
-  for (const Point& p : points) threshold = std::min(threshold, static_cast<double>(p.amplitude));
+  for (const PointMeasurement& p : points)
+    threshold = std::min(threshold, static_cast<double>(p.amplitude));
   for (Target& target : targets_) {
     target.bank.mix(), target.bank.predict();
-    std::vector<Point> gated;
-    for (const Point& point : points) {
+    std::vector<PointMeasurement> gated;
+    for (const PointMeasurement& point : points) {
       bool inside = false;
       for (const PlainMode& mode : target.bank.modes) {
         const PlainPrediction expected(mode.belief, noise);
@@ -51,7 +52,8 @@ void PlainPda::step(std::span<const Point> points) {
   }
 }
 
-void PlainPda::update(Target& target, const std::vector<Point>& gated, double threshold) const {
+void PlainPda::update(Target& target, const std::vector<PointMeasurement>& gated,
+                      double threshold) const {
   const MatrixXd noise = config_.measurement_variance * MatrixXd::Identity(2, 2);
   const AmplitudeModel model = amplitude_model(config_.amplitude);
   const double miss = 1 - config_.detection * (1 - std::exp(-config_.gate / 2));

@@ -16,7 +16,7 @@ class PlainPda {
   /// A target at (x, y) [px] with velocity (vx, vy) [px/frame] and amplitude [sigma] one frame
   /// before the first scan.
   void start(double x, double y, double vx, double vy, double amplitude);
-  void step(std::span<const Point> points);
+  void step(std::span<const PointMeasurement> points);
   std::vector<Eigen::Vector4d> states() const;  ///< [x vx y vy], in the order of start()
 
  private:
@@ -24,7 +24,7 @@ class PlainPda {
     PlainBank bank;
     TargetAmplitude amplitude;
   };
-  void update(Target& target, const std::vector<Point>& gated, double threshold) const;
+  void update(Target& target, const std::vector<PointMeasurement>& gated, double threshold) const;
 
   ImmPdaAiConfig config_;
   std::vector<Target> targets_;

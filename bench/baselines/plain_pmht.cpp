@@ -19,7 +19,7 @@ std::vector<Eigen::Vector4d> PlainPmht::states() const {
   return states;
 }
 
-void PlainPmht::step(std::span<const Point> points) {
+void PlainPmht::step(std::span<const PointMeasurement> points) {
   PlainWeights weights = predict(points);
   for (int i = 0; i < config_.iterations; ++i) {
     if (iterate(weights, i == 0) <= config_.tolerance) break;
@@ -27,7 +27,7 @@ void PlainPmht::step(std::span<const Point> points) {
   for (Target& target : targets_) take_in(target);
 }
 
-PlainWeights PlainPmht::predict(std::span<const Point> points) {
+PlainWeights PlainPmht::predict(std::span<const PointMeasurement> points) {
   const auto targets = static_cast<Index>(targets_.size());
   const std::size_t models = targets_[0].bank.modes.size();
   MatrixXd expected(2, targets), probability(targets, static_cast<Index>(models));

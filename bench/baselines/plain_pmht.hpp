@@ -15,7 +15,7 @@ class PlainPmht {
   explicit PlainPmht(const PmhtConfig& config) : config_(config) {}
   /// A target at (x, y) [px] with velocity (vx, vy) [px/frame] one frame before the first scan.
   void start(double x, double y, double vx, double vy);
-  void step(std::span<const Point> points);
+  void step(std::span<const PointMeasurement> points);
   std::vector<Eigen::Vector4d> states() const;  ///< [x vx y vy], in the order of start()
 
  private:
@@ -24,7 +24,7 @@ class PlainPmht {
     std::vector<PlainGaussian> estimates;  ///< by model, in the iteration at hand
     std::vector<Eigen::Vector3d> first;    ///< by model: the first centroid
   };
-  PlainWeights predict(std::span<const Point> points);
+  PlainWeights predict(std::span<const PointMeasurement> points);
   double iterate(PlainWeights& weights, bool first);
   PlainGaussian maximise(const PlainGaussian& predicted, const Eigen::Vector3d& centroid) const;
   void take_in(Target& target) const;

@@ -9,7 +9,8 @@ namespace glint::bench {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-PlainWeights::PlainWeights(std::span<const Point> seen, const MatrixXd& expected, double gate)
+PlainWeights::PlainWeights(std::span<const PointMeasurement> seen, const MatrixXd& expected,
+                           double gate)
     : points(2, static_cast<Index>(seen.size())), gated(expected.cols(), points.cols()) {
   for (std::size_t i = 0; i < seen.size(); ++i) {
     points.col(static_cast<Index>(i)) << seen[i].x, seen[i].y;

@@ -17,7 +17,8 @@ struct PlainWeights {
   std::vector<Eigen::MatrixXd> positions;  ///< by model: 2 x targets [px]
   Eigen::MatrixXd probability;             ///< of a target's models, targets x models
 
-  PlainWeights(std::span<const Point> seen, const Eigen::MatrixXd& expected, double gate);
+  PlainWeights(std::span<const PointMeasurement> seen, const Eigen::MatrixXd& expected,
+               double gate);
   /// P-PMHT (16) with a class for clutter; the density of a target is P-MMPF (8) if models mix.
   Eigen::MatrixXd of(std::size_t model, const PmhtConfig& config) const;
   /// (23): x, y and weight of a target's centroid.

@@ -20,16 +20,23 @@ void describe(FieldList& list, PointsConfig& c) {
 PointFinder::PointFinder(const PointsConfig& config, const Device& device)
     : config_(valid(config)), device_(device), filter_(config.psf_sigma, device) {}
 
-void PointFinder::find(const Scan& scan, std::vector<Point>& points) {
+void PointFinder::find(const Scan& scan, std::vector<PointMeasurement>& points) {
+  find(scan);
+  points.clear();
+  for (const Point& p : found_) points.push_back({p.x, p.y, p.amplitude});
+}
+
+/// Into found_.
+void PointFinder::find(const Scan& scan) {
   if (config_.mode == FindPoints::Mode::local_maximum) {
-    filter_.points(scan.whitened.for_kernels(), config_.threshold, config_.radius, points);
+    filter_.points(scan.whitened.for_kernels(), config_.threshold, config_.radius, found_);
     return;
   }
   FindPoints::Args args;
   args.map = scan.raw.view();
   args.mode = FindPoints::Mode::unit_5x5;
   args.threshold = static_cast<float>(config_.unit_threshold * mean(args.map));
-  args.points = &points;
+  args.points = &found_;
   args.workspace = &workspace_;
   device_.run<FindPoints>(args);
 }

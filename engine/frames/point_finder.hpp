@@ -6,6 +6,7 @@
 #include "glint/engine/frames/matched_filter.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/kernels/core/device.hpp"
+#include "glint/kernels/find_points/find_points.hpp"
 
 namespace glint {
 
@@ -26,15 +27,17 @@ class PointFinder {
   /// Replaces `points`, row by row. local_maximum: maxima of the matched filter on `whitened`,
   /// amplitude in sigmas. unit_5x5: blocks of `raw` whose mean exceeds unit_threshold times the
   /// frame's, P-HPMHT (20), amplitude in grey levels; none in a scan without `raw`.
-  void find(const Scan& scan, std::vector<Point>& points);
+  void find(const Scan& scan, std::vector<PointMeasurement>& points);
 
  private:
+  void find(const Scan& scan);
   double mean(FrameView frame);
 
   PointsConfig config_;
   Device device_;
   MatchedFilter filter_;
   PointWorkspace workspace_;
+  std::vector<Point> found_;
   std::vector<double> row_sums_;
 };
 

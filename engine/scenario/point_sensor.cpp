@@ -11,9 +11,9 @@ namespace glint {
 namespace {
 
 /// `size` scaled by a random word.
-float pixel(std::uint32_t word, int size) {
-  return static_cast<float>((static_cast<std::uint64_t>(word) * static_cast<std::uint64_t>(size)) >>
-                            32);
+double pixel(std::uint32_t word, int size) {
+  return static_cast<double>(
+      (static_cast<std::uint64_t>(word) * static_cast<std::uint64_t>(size)) >> 32);
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ double PointSensor::clutter_density(const Scene& scene) const {
   return static_cast<double>(clutter) / scene.width / scene.height;
 }
 
-Point point_of(const TruthPoint& target, const PointSensor& sensor, std::uint64_t seed) {
+PointMeasurement point_of(const TruthPoint& target, const PointSensor& sensor, std::uint64_t seed) {
   const RandomKey key =
       random_key(seed, static_cast<std::uint64_t>(target.frame), Purpose::scenario);
   const Normals4 n = random_normals(key, static_cast<std::uint32_t>(target.track_id));
@@ -34,12 +34,12 @@ Point point_of(const TruthPoint& target, const PointSensor& sensor, std::uint64_
   double x = target.x + sigma * static_cast<double>(n.n[0]);
   double y = target.y + sigma * static_cast<double>(n.n[1]);
   if (sensor.rounds) x = std::round(x), y = std::round(y);
-  return {static_cast<float>(x), static_cast<float>(y), sensor.amplitude};
+  return {x, y, sensor.amplitude};
 }
 
-std::vector<Point> points_at(const Scene& scene, const PointSensor& sensor, std::uint64_t seed,
-                             int frame) {
-  std::vector<Point> points;
+std::vector<PointMeasurement> points_at(const Scene& scene, const PointSensor& sensor,
+                                        std::uint64_t seed, int frame) {
+  std::vector<PointMeasurement> points;
   for (const TruthPoint& target : truth_at(scene, frame)) {
     points.push_back(point_of(target, sensor, seed));
   }
@@ -49,9 +49,10 @@ std::vector<Point> points_at(const Scene& scene, const PointSensor& sensor, std:
     const Words4 r = random_words(clutter, static_cast<std::uint32_t>(i));
     points.push_back({pixel(r.w[0], scene.width), pixel(r.w[1], scene.height), sensor.amplitude});
   }
-  std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
-    return std::tie(a.y, a.x) < std::tie(b.y, b.x);
-  });
+  std::stable_sort(points.begin(), points.end(),
+                   [](const PointMeasurement& a, const PointMeasurement& b) {
+                     return std::tie(a.y, a.x) < std::tie(b.y, b.x);
+                   });
   return points;
 }
 

@@ -9,8 +9,8 @@ void describe(FieldList& f, PointTrackConfig& c) {
   f("initiate", c.initiate, "start tracks from pairs of points that no track has");
   f("start_amplitude", c.start_amplitude, -1000, 1e6, "sigma",
     "least amplitude of such points, if they have any");
-  f("speed_max", c.speed_max, 0, 1e6, "px/time", "of a new target");
-  f("separation", c.separation, 0, 1e6, "px",
+  f("speed_max", c.speed_max, 0, 1e9, "px/time", "of a new target");
+  f("separation", c.separation, 0, 1e9, "px",
     "no new track this near to a living one; a tentative track ends if it comes this near");
   f("merge_scans", c.merge_scans, 0, 1000000, "scans",
     "of two confirmed tracks that near for so many scans in a row the younger ends; 0 is never");

@@ -11,14 +11,14 @@
 namespace glint {
 
 /// Its place is known.
-bool placed(const Point& point);
+bool placed(const PointMeasurement& point);
 
 /// Where points may lie: the frame, or without one the box about all points so far.
 class PointArea {
  public:
   void see(const Scan& scan);
-  /// With `margin` [px] about a box; at least 1 px^2.
-  double size(double margin = 0) const;
+  /// [px^2], with `margin` [px] about a box; at least `least`: all points may lie in one place.
+  double size(double least, double margin = 0) const;
 
   template <class Self>
   static auto fields(Self& s) {
@@ -47,8 +47,8 @@ struct ScanPoints {
     positions.push_back(position), amplitudes.push_back(amplitude), claimed.push_back(0);
   }
   bool free(std::size_t point) const { return claimed[point] < kClaimed; }
-  /// Of the points beyond one a target, at least one point [1/px^2].
-  double false_density(std::size_t targets, double margin = 0) const;
+  /// Of the points beyond one a target, at least one point [1/px^2], over the area's size().
+  double false_density(std::size_t targets, double least_area, double margin = 0) const;
 };
 
 }  // namespace glint

@@ -8,10 +8,12 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -116,6 +118,13 @@ glint_status poll(glint_engine& handle, double timeout, glint_result& given, gli
   return GLINT_OK;
 }
 
+glint_status push(glint_engine* engine, std::vector<PointMeasurement> points, double time) {
+  require(engine != nullptr, "engine is NULL");
+  SourceFrame source;
+  source.time = time, source.points = std::move(points);
+  return engine->engine.push(std::move(source)) ? GLINT_OK : GLINT_DROPPED;
+}
+
 }  // namespace
 
 const char* glint_version(void) { return library_version().data(); }
@@ -137,8 +146,8 @@ int glint_has(const char* what) {
              return GLINT_OK;
            }) == GLINT_OK;
   }
-  constexpr std::array<std::string_view, 4> kOthers{"pixel.gray8", "pixel.gray16", "pixel.float32",
-                                                    "points"};
+  constexpr std::array<std::string_view, 5> kOthers{"pixel.gray8", "pixel.gray16", "pixel.float32",
+                                                    "points", "measurements"};
   return std::ranges::find(kOthers, asked) != kOthers.end();
 }
 
@@ -187,15 +196,29 @@ glint_status glint_push(glint_engine* engine, const glint_frame* frame) {
 glint_status glint_push_points(glint_engine* engine, const glint_point* points, size_t count,
                                double time) {
   return guarded([&] {
-    require(engine != nullptr, "engine is NULL");
     require(points != nullptr || count == 0, "points is NULL");
-    SourceFrame source;
-    source.time = time;
-    source.points.emplace();
-    for (std::size_t i = 0; i < count; ++i) {
-      source.points->push_back({points[i].x, points[i].y, points[i].amplitude});
+    std::vector<PointMeasurement> measurements;
+    for (const glint_point& p : std::span(points, count)) {
+      measurements.push_back(
+          {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.amplitude)});
     }
-    return engine->engine.push(std::move(source)) ? GLINT_OK : GLINT_DROPPED;
+    return push(engine, std::move(measurements), time);
+  });
+}
+
+glint_status glint_push_measurements(glint_engine* engine, const glint_measurement* measurements,
+                                     size_t measurement_size, size_t count, double time) {
+  return guarded([&] {
+    require(measurements != nullptr || count == 0, "measurements is NULL");
+    require(measurement_size > 0, "measurement_size is 0: it must be sizeof(glint_measurement)");
+    const auto* from = reinterpret_cast<const std::byte*>(measurements);
+    std::vector<PointMeasurement> all;
+    for (std::size_t i = 0; i < count; ++i, from += measurement_size) {
+      glint_measurement m{0, 0, std::numeric_limits<double>::quiet_NaN()};
+      std::memcpy(&m, from, std::min(measurement_size, sizeof(m)));
+      all.push_back({m.x, m.y, m.amplitude});
+    }
+    return push(engine, std::move(all), time);
   });
 }
 

@@ -52,7 +52,7 @@ GLINT_API const char *glint_version(void);
  * the thread's next call. */
 GLINT_API const char *glint_last_error(void);
 /* Whether this build has "tracker.<name>", "device.<kind>", "pixel.gray8", "pixel.gray16",
- * "pixel.float32" or "points": 1 or 0. */
+ * "pixel.float32", "points" or "measurements": 1 or 0. */
 GLINT_API int glint_has(const char *what);
 /* Every setting with its meaning, range and default, as TOML; 0 at the end. `size` holds the
  * bytes of `text` and gets those needed: GLINT_TOO_SMALL if there are fewer. */
@@ -107,10 +107,21 @@ typedef struct glint_point {
   float amplitude; /* NaN: not known */
 } glint_point;
 
-/* Queues the points of a scan without a frame, for trackers of points; all pushes are of one kind.
- * `points` may be NULL if there are none. */
+/* glint_push_measurements() with 7 digits instead of 16: enough for pixels, not for metres on a
+ * map. */
 GLINT_API glint_status glint_push_points(glint_engine *engine, const glint_point *points,
                                          size_t count, double time);
+
+typedef struct glint_measurement {
+  double x, y;      /* [px], or the unit of length that the points and the settings share */
+  double amplitude; /* [sigma]; NaN: not known */
+} glint_measurement;
+
+/* Queues the points of a scan without a frame, for trackers of points; all pushes are of one kind.
+ * `measurement_size` is sizeof(glint_measurement); `measurements` may be NULL if there are none. */
+GLINT_API glint_status glint_push_measurements(glint_engine *engine,
+                                               const glint_measurement *measurements,
+                                               size_t measurement_size, size_t count, double time);
 
 typedef enum glint_track_status {
   GLINT_TENTATIVE = 0,

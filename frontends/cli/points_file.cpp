@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "glint/engine/number_text.hpp"
 #include "glint/frontends/files/tables.hpp"
 
 namespace glint::cli {
@@ -17,9 +18,12 @@ PointsFile::PointsFile(std::string path, const FrameJob& job)
 
 void PointsFile::take(const ScanResult& result) {
   const Scan& scan = result.scan;
-  for (const Point& p : scan.points) {
-    file_ << fmt::format("{},{:.9g},{:.7g},{:.7g},{:.6g}\n", scan.frame, scan.time, p.x, p.y,
-                         p.amplitude);
+  for (const PointMeasurement& p : scan.points) {
+    std::string row = std::to_string(scan.frame) + ',';
+    append_rounded(row, scan.time, 9, 6), row += ',';
+    append_rounded(row, p.x, 7, 3), row += ',';
+    append_rounded(row, p.y, 7, 3);
+    file_ << row << fmt::format(",{:.6g}\n", p.amplitude);
     ++count_;
   }
   flush_output(file_, path_);

@@ -30,7 +30,7 @@ class PointScans {
   Scan at(std::size_t i) {
     points_.clear();
     for (const Position& p : record_.scans[i].points) {
-      points_.push_back({static_cast<float>(p.x), static_cast<float>(p.y), 10});
+      points_.push_back({p.x, p.y, 10});
     }
     Scan scan;
     scan.frame = static_cast<std::int64_t>(i), scan.time = record_.scans[i].time;
@@ -41,7 +41,7 @@ class PointScans {
 
  private:
   const BoatRecord& record_;
-  std::vector<Point> points_;
+  std::vector<PointMeasurement> points_;
 };
 
 /// Which track was started for which boat.

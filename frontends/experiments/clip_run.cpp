@@ -18,7 +18,7 @@ constexpr double kCutoff = 8;  // [px]; box centres lie up to 3 px off the peaks
 class Detections : public Sink {
  public:
   void take(const ScanResult& result) override {
-    for (const Point& p : result.scan.points) {
+    for (const PointMeasurement& p : result.scan.points) {
       list.push_back({result.scan.frame, p.x, p.y, p.amplitude});
     }
   }

@@ -106,22 +106,19 @@ class Scans {
     }
   }
 
-  std::optional<Point> point_of(const Row& row, std::int64_t line) const {
+  std::optional<PointMeasurement> point_of(const Row& row, std::int64_t line) const {
     const double strength = row[amplitude];
-    const auto at = [strength](double px, double py) {
-      return Point{static_cast<float>(px), static_cast<float>(py), static_cast<float>(strength)};
-    };
     const bool has_x = !std::isnan(row[x]), has_range = !std::isnan(row[range]);
     if (has_x != !std::isnan(row[y]) || has_range != !std::isnan(row[azimuth])) {
       refuse(line, "holds half a position; give x and y, or range and azimuth, or none of them");
     }
-    if (has_x) return at(row[x], row[y]);
+    if (has_x) return PointMeasurement{row[x], row[y], strength};
     if (!has_range) return std::nullopt;
     const double up = std::isnan(row[elevation]) ? 0 : row[elevation];
     const double ground = row[range] * std::cos(up);
     const PointScan& scan = scans_.back();
-    return at(scan.sensor_x + ground * std::cos(row[azimuth]),
-              scan.sensor_y + ground * std::sin(row[azimuth]));
+    return PointMeasurement{scan.sensor_x + ground * std::cos(row[azimuth]),
+                            scan.sensor_y + ground * std::sin(row[azimuth]), strength};
   }
 
   std::string path_;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "glint/kernels/find_points/find_points.hpp"
+#include "glint/engine/point_measurement.hpp"
 
 namespace glint {
 
@@ -13,7 +13,7 @@ struct PointScan {
   std::int64_t frame = 0;
   double time = 0;                    ///< [s]
   double sensor_x = 0, sensor_y = 0;  ///< [px]
-  std::vector<Point> points;
+  std::vector<PointMeasurement> points;
 };
 
 struct PointScans {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "glint/engine/number_text.hpp"
 #include "glint/frontends/files/tables.hpp"
 #include "glint/frontends/files/track_file.hpp"
 #include "glint/frontends/usage_error.hpp"
@@ -22,9 +22,17 @@ std::array<double, 9> values_of(const TrackPoint& p) {
   return {p.x, p.y, p.vx, p.vy, p.intensity, p.existence, p.var_x, p.cov_xy, p.var_y};
 }
 
-void append_cell(std::string& row, double value) {
+/// Of a position: to a thousandth, and to a tenth of its spread.
+int decimals_of(double variance) {
+  constexpr double kLeast = 3, kMost = 17;
+  if (!(variance > 0)) return static_cast<int>(kLeast);
+  return static_cast<int>(std::clamp(std::ceil(1 - std::log10(variance) / 2), kLeast, kMost));
+}
+
+/// Empty for NaN.
+void append_cell(std::string& row, double value, int decimals = 0) {
   row += ',';
-  if (!std::isnan(value)) fmt::format_to(std::back_inserter(row), "{:.8g}", value);
+  if (!std::isnan(value)) append_rounded(row, value, 8, decimals);
 }
 
 using Estimates = std::vector<std::string>;
@@ -60,8 +68,12 @@ class CsvFormat : public TrackFormat {
     return text + '\n';
   }
   std::string point(const TrackPoint& p) const override {
-    std::string row = fmt::format("{},{:.9g},{},{}", p.frame, p.time, p.track_id, name(p.status));
-    for (const double value : values_of(p)) append_cell(row, value);
+    std::string row = std::to_string(p.frame) + ',';
+    append_rounded(row, p.time, 9, 6);
+    row += fmt::format(",{},{}", p.track_id, name(p.status));
+    append_cell(row, p.x, decimals_of(p.var_x)), append_cell(row, p.y, decimals_of(p.var_y));
+    const auto values = values_of(p);
+    for (std::size_t i = 2; i < values.size(); ++i) append_cell(row, values[i]);
     for (const double probability : p.mode_probability) append_cell(row, probability);
     return row + '\n';
   }
@@ -118,8 +130,10 @@ class MotFormat : public TrackFormat {
     constexpr double kSide = 7;  // [px], +-3 sigma of the default point spread
     const double confidence = std::isnan(p.existence) ? 1 : p.existence;
     // frames count from 1, and so do pixels: the first one's centre is (1, 1)
-    return fmt::format("{},{},{:.8g},{:.8g},{},{},{:.6g},-1,-1,-1\n", p.frame + 1, p.track_id,
-                       p.x + 1 - kSide / 2, p.y + 1 - kSide / 2, kSide, kSide, confidence);
+    std::string row = fmt::format("{},{}", p.frame + 1, p.track_id);
+    append_cell(row, p.x + 1 - kSide / 2, decimals_of(p.var_x));
+    append_cell(row, p.y + 1 - kSide / 2, decimals_of(p.var_y));
+    return row + fmt::format(",{},{},{:.6g},-1,-1,-1\n", kSide, kSide, confidence);
   }
   std::string trailer(const Estimates&) const override { return {}; }
   bool bare() const override { return true; }

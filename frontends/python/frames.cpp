@@ -118,7 +118,7 @@ SourceFrame frame_of(const py::object& given, double time, bool copy, Lent& lent
 }
 
 SourceFrame points_of(const py::object& given, double time) {
-  const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
+  const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
   if (!array) {
     PyErr_Clear();
     throw py::type_error("points must be numbers, got " + text_of(given.get_type()) +
@@ -134,8 +134,8 @@ SourceFrame points_of(const py::object& given, double time) {
   scan.time = time;
   scan.points.emplace();
   for (py::ssize_t i = 0; i < values.shape(0); ++i) {
-    const float amplitude =
-        values.shape(1) == 3 ? values(i, 2) : std::numeric_limits<float>::quiet_NaN();
+    const double amplitude =
+        values.shape(1) == 3 ? values(i, 2) : std::numeric_limits<double>::quiet_NaN();
     scan.points->push_back({values(i, 0), values(i, 1), amplitude});
   }
   return scan;

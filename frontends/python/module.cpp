@@ -82,7 +82,8 @@ void add_engine(py::module_& m) {
            "finish(), and what ended the engine if something did.")
       .def("push_points", &PushEngine::push_points, "points"_a, "time"_a,
            "Queue the points of a scan without a frame, for trackers of points.\n\n"
-           "`points` has the shape (n, 2) for x, y [px] or (n, 3) for x, y, amplitude. All pushes\n"
+           "`points` has the shape (n, 2) for x, y or (n, 3) for x, y, amplitude, and is taken as\n"
+           "float64: x and y [px], or in any unit of length that the settings share. All pushes\n"
            "of an engine are of one kind. Returns and raises as push() does.")
       .def(
           "poll", &PushEngine::poll, "timeout"_a = 0.0,

@@ -240,6 +240,41 @@ TEST(CApi, FollowsPoints) {
   }));
 }
 
+/// A struct of a later header: the library passes over what it does not know.
+struct LaterMeasurement {
+  glint_measurement known;
+  double more;
+};
+
+TEST(CApi, MeasurementsKeepTheirDigits) {
+  const Handle engine = create("imm-jpda");
+  for (int t = 0; t < 20; ++t) {
+    const std::array<LaterMeasurement, 2> points{
+        {{{500000.02 + 2 * t, 5000000.01 + t, NAN}, -1}, {{500300.5, 5000000.25 + 5 * t, 8}, -1}}};
+    ASSERT_EQ(glint_push_measurements(engine.get(), &points[0].known, sizeof(LaterMeasurement), 2,
+                                      2e9 + t),
+              GLINT_OK);
+  }
+  ASSERT_EQ(glint_finish(engine.get()), GLINT_OK);
+  std::size_t count = 1000;
+  std::vector<glint_track> tracks(count);
+  ASSERT_EQ(glint_revised(engine.get(), tracks.data(), sizeof(glint_track), &count), GLINT_OK);
+  tracks.resize(count);
+  EXPECT_TRUE(std::ranges::any_of(tracks, [](const glint_track& t) {
+    return t.time == 2e9 + 19 && t.status == GLINT_CONFIRMED && std::abs(t.x - 500038.02) < 1e-3 &&
+           std::abs(t.y - 5000019.01) < 1e-3;
+  }));
+}
+
+TEST(CApi, BadMeasurementsAreRefused) {
+  const Handle engine = create("imm-jpda");
+  const glint_measurement point{1, 2, 3};
+  EXPECT_EQ(glint_push_measurements(engine.get(), nullptr, sizeof point, 1, 0), GLINT_BAD_ARGUMENT);
+  EXPECT_EQ(glint_push_measurements(engine.get(), &point, 0, 1, 0), GLINT_BAD_ARGUMENT);
+  EXPECT_EQ(glint_push_measurements(nullptr, &point, sizeof point, 1, 0), GLINT_BAD_ARGUMENT);
+  EXPECT_EQ(glint_push_measurements(engine.get(), nullptr, sizeof point, 0, 0), GLINT_OK);
+}
+
 TEST(CApi, SaysWhatItHas) {
   EXPECT_STREQ(glint_version(), GLINT_VERSION_TEXT);
   EXPECT_EQ(glint_has("tracker.h-pmht"), 1);
@@ -247,6 +282,7 @@ TEST(CApi, SaysWhatItHas) {
   EXPECT_EQ(glint_has("device.tbb"), 1);
   EXPECT_EQ(glint_has("device.abacus"), 0);
   EXPECT_EQ(glint_has("pixel.gray16"), 1);
+  EXPECT_EQ(glint_has("measurements"), 1);
   EXPECT_EQ(glint_has(nullptr), 0);
   std::size_t size = 0;
   ASSERT_EQ(glint_default_config(nullptr, &size), GLINT_TOO_SMALL);

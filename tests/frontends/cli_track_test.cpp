@@ -150,6 +150,23 @@ TEST(CliTrack, TheFirstErrorIsTheOneReported) {
   EXPECT_TRUE(has(result.err.substr(result.err.find('\n')), "33x32")) << result.err;
 }
 
+TEST(CliTrack, PointsFarFromTheOriginKeepTheirDigits) {
+  const Folder folder;
+  std::string rows = "time,x,y\n";
+  for (int k = 0; k < 20; ++k) {
+    const std::string end = std::to_string(k % 10) + "5\n";  // 0.1 a second, and .05
+    rows += std::to_string(2000000000 + k) + ".000001,1397634160.25," +
+            std::to_string(356785130 + k / 10) + '.' + end;
+  }
+  const std::string points = folder.write("p.csv", rows), tracks = folder / "t.csv";
+  ASSERT_EQ(glint(folder, "track " + points + " --tracker imm-jpda --quiet --out " + tracks).code,
+            0);
+  const TrackPoint last = read_tracks(tracks).back();
+  EXPECT_NEAR(last.time, 2000000019.000001, 3e-7);
+  EXPECT_NEAR(last.x, 1397634160.25, 1e-3);
+  EXPECT_NEAR(last.y, 356785131.95, 1e-3);
+}
+
 TEST(CliTrack, AnInputWithoutFramesIsAnError) {
   const Folder folder;
   const std::string start("\x93NUMPY\x01\0v\0", 10);

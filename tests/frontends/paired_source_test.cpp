@@ -54,9 +54,9 @@ TEST(PairedSource, PointsGoToTheFrameOfTheirNumber) {
   const Read read = pair(folder, "frame,time,x,y,amplitude\n1,90,2,3,7\n1,90,4,5,8\n3,99,6,7,9\n");
   ASSERT_EQ(read.frames.size(), 4U);
   EXPECT_TRUE(read.frames[0].points->empty());
-  EXPECT_EQ(*read.frames[1].points, (std::vector<Point>{{2, 3, 7}, {4, 5, 8}}));
+  EXPECT_EQ(*read.frames[1].points, (std::vector<PointMeasurement>{{2, 3, 7}, {4, 5, 8}}));
   EXPECT_TRUE(read.frames[2].points->empty());
-  EXPECT_EQ(*read.frames[3].points, (std::vector<Point>{{6, 7, 9}}));
+  EXPECT_EQ(*read.frames[3].points, (std::vector<PointMeasurement>{{6, 7, 9}}));
   EXPECT_EQ(read.frames[1].pixels.width, 2);
   EXPECT_DOUBLE_EQ(read.frames[1].time, 10.5);
   EXPECT_TRUE(read.frames[0].looked);

@@ -40,12 +40,12 @@ TEST(PointsSource, RowsOfAFrameAreAScanAndGapsAreEmptyScans) {
   const auto frames = all_of(*source);
   ASSERT_EQ(frames.size(), 5U);
   EXPECT_TRUE(frames[0].points->empty());
-  EXPECT_EQ(*frames[1].points, (std::vector<Point>{{2, 3, 7}, {4, 5, 8}}));
+  EXPECT_EQ(*frames[1].points, (std::vector<PointMeasurement>{{2, 3, 7}, {4, 5, 8}}));
   EXPECT_TRUE(frames[2].points->empty());
   EXPECT_DOUBLE_EQ(frames[0].time, 8);
   EXPECT_DOUBLE_EQ(frames[2].time, 12);
   EXPECT_DOUBLE_EQ(frames[3].time, 14);
-  EXPECT_EQ(*frames[4].points, (std::vector<Point>{{6, 7, 9}}));
+  EXPECT_EQ(*frames[4].points, (std::vector<PointMeasurement>{{6, 7, 9}}));
 }
 
 TEST(PointsSource, TimesAloneMakeScansToo) {
@@ -65,7 +65,7 @@ TEST(PointsSource, JsonLinesHoldTheSame) {
                            "{\"frame\": 0, \"x\": 1, \"y\": 2, \"amplitude\": 3}\n\n"
                            "{\"frame\": 1, \"kind\": \"radar\", \"x\": null, \"y\": null}\n");
   ASSERT_EQ(frames.size(), 2U);
-  EXPECT_EQ(*frames[0].points, (std::vector<Point>{{1, 2, 3}}));
+  EXPECT_EQ(*frames[0].points, (std::vector<PointMeasurement>{{1, 2, 3}}));
   EXPECT_TRUE(frames[1].points->empty());
 }
 
@@ -78,6 +78,20 @@ TEST(PointsSource, RangeAndAnglesBecomePositions) {
   EXPECT_NEAR(points[0].x, -10, 1e-4);
   EXPECT_NEAR(points[0].y, 0, 1e-4);
   EXPECT_NEAR(points[1].x, 5, 1e-4);
+}
+
+TEST(PointsSource, CoordinatesAndTimesKeepAllTheirDigits) {
+  const Folder folder;
+  const auto frames =
+      read(folder, "p.csv", "time,x,y\n2000000000.000001,1397634160.123,-356785133.456\n");
+  EXPECT_EQ(frames.at(0).time, 2000000000.000001);
+  EXPECT_EQ(frames.at(0).points->at(0).x, 1397634160.123);
+  EXPECT_EQ(frames.at(0).points->at(0).y, -356785133.456);
+  const auto lines = read(folder, "p.jsonl", "{\"frame\": 0, \"x\": 500000.02, \"y\": 5e6}\n");
+  EXPECT_EQ(lines.at(0).points->at(0).x, 500000.02);
+  const auto polar =
+      read(folder, "p.csv", "time,range,azimuth,sensor_x,sensor_y\n0,3,0,500000.25,5000000.5\n");
+  EXPECT_EQ(polar.at(0).points->at(0).x, 500003.25);
 }
 
 TEST(PointsSource, MistakesAreNamedWithFileAndLine) {

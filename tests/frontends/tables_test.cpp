@@ -96,6 +96,46 @@ TEST(TrackFile, CsvReadsBackAndHoldsConfigurationAndNotes) {
   EXPECT_TRUE(std::isnan(tracks[1].vx));
 }
 
+/// Metres on a map, known to `sd`, at a time since 1970.
+TrackPoint far_away(double sd) {
+  TrackPoint p = point(0, 4, 0, TrackStatus::confirmed);
+  p.x = 10000000.01 + sd, p.y = -5000000.02 - sd, p.time = 2000000000.000001;
+  p.var_x = p.var_y = sd * sd;
+  return p;
+}
+
+TEST(TrackFile, LargeNumbersKeepTheDigitsThatCount) {
+  const Folder folder;
+  for (const std::string name : {"t.csv", "t.jsonl"}) {
+    for (const double sd : {0.02, 2e-6}) {
+      const TrackPoint p = far_away(sd);
+      TrackFile(folder / name, {"t", ""}, false).write(std::vector{p}, {});
+      const std::string text = content_of(folder / name);
+      TrackPoint q;
+      if (name == "t.csv") {
+        q = read_tracks(folder / name).at(0);
+      } else {
+        const auto line = nlohmann::json::parse(text.substr(text.find("\n{") + 1));
+        q.x = line["x"], q.y = line["y"], q.time = line["time"];
+      }
+      EXPECT_NEAR(q.x, p.x, 0.051 * sd) << text;
+      EXPECT_NEAR(q.y, p.y, 0.051 * sd) << text;
+      EXPECT_NEAR(q.time, p.time, 3e-7) << text;
+    }
+  }
+  TrackFile(folder / "t.mot.txt", {"t", ""}, false).write(std::vector{far_away(0.02)}, {});
+  EXPECT_EQ(content_of(folder / "t.mot.txt"), "1,4,9999997.53,-5000002.54,7,7,0.75,-1,-1,-1\n");
+}
+
+TEST(TrackFile, ASpreadThatIsNotKnownLeavesAThousandth) {
+  const Folder folder;
+  TrackPoint p = far_away(0.02);
+  p.var_x = p.var_y = TrackPoint::kUnknown;
+  TrackFile(folder / "t.csv", {"t", ""}, false).write(std::vector{p}, {});
+  EXPECT_TRUE(has(content_of(folder / "t.csv"),
+                  "\n0,2000000000.000001,4,confirmed,10000000.03,-5000000.04,"));
+}
+
 TEST(TrackFile, EveryFrameIsThereBeforeTheEnd) {
   const Folder folder;
   TrackFile file(folder / "t.csv", {"t", ""}, false);

@@ -118,6 +118,16 @@ def test_points_are_pushed_without_frames():
         engine.push_points("abc", 0)
 
 
+def test_points_keep_their_digits():
+    engine = glint.Engine("imm-jpda")
+    for number in range(20):
+        engine.push_points(np.array([[500000.02 + number, 5000000.01]]), 2e9 + number)
+    engine.finish()
+    last = results_of(engine)[-1].tracks[0]
+    assert last["time"] == 2e9 + 19
+    assert abs(last["x"] - 500019.02) < 1e-3 and abs(last["y"] - 5000000.01) < 1e-3
+
+
 def test_a_full_queue_drops_what_has_waited_longest():
     engine = glint.Engine("mm-phd", queue=1, when_full="drop_oldest")
     rng = np.random.default_rng(1)

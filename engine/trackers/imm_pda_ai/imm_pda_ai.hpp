@@ -14,6 +14,7 @@
 #include "glint/engine/tracks/track_life.hpp"
 #include "glint/engine/tracks/tracker.hpp"
 #include "glint/kernels/core/device.hpp"
+#include "glint/kernels/find_points/find_points.hpp"
 
 namespace glint {
 

@@ -12,10 +12,10 @@ void ImmPdaAi::measure(const Scan& scan) {
   points_.clear(), points_.area.see(scan);
   if (config_.points == "units") return measure_units(scan.raw.view());
   amplitude_threshold_ = std::numeric_limits<double>::infinity();
-  for (const Point& point : scan.points) {
+  for (const PointMeasurement& point : scan.points) {
     // Points whose amplitude is unknown are all alike, and bright enough to start a track.
-    const double amplitude = std::isnan(point.amplitude) ? config_.start_amplitude
-                                                         : static_cast<double>(point.amplitude);
+    const double amplitude =
+        std::isnan(point.amplitude) ? config_.start_amplitude : point.amplitude;
     if (!placed(point) || !std::isfinite(amplitude)) continue;
     points_.add({point.x, point.y}, amplitude);
     amplitude_threshold_ = std::min(amplitude_threshold_, amplitude);
@@ -47,10 +47,12 @@ void ImmPdaAi::measure_units(FrameView frame) {
   }
 }
 
-/// All points count, those of the targets included; there is at most one a pixel.
+/// All points count, those of the targets included; there is at most one where a point scatters.
 void ImmPdaAi::set_clutter() {
-  clutter_ = config_.clutter_density > 0 ? config_.clutter_density
-                                         : std::min(points_.false_density(0), 1.0);
+  const double variance = noise_(0, 0);
+  clutter_ = config_.clutter_density > 0
+                 ? config_.clutter_density
+                 : std::min(points_.false_density(0, variance), 1 / variance);
 }
 
 }  // namespace glint

@@ -15,6 +15,12 @@ ImmWindowConfig single_scan(ImmWindowConfig config) {
   return config;
 }
 
+/// Where all points so far lie in one place: that over which one scatters [px^2].
+double least_area(const ImmJpdaConfig& config) {
+  const bool polar = config.measurement == MeasuredQuantity::range_azimuth;
+  return polar ? config.range_sd * config.range_sd : config.measurement_variance;
+}
+
 }  // namespace
 
 ImmJpda::ImmJpda(const ImmJpdaConfig& config, const Device&, std::uint64_t /*seed*/)
@@ -65,8 +71,9 @@ void ImmJpda::step(const Scan& scan, TrackLog& log) {
 void ImmJpda::read_points(const Scan& scan) {
   place_ << scan.sensor_x, scan.sensor_y;
   points_.take(scan);
-  density_ = config_.clutter_density > 0 ? config_.clutter_density
-                                         : points_.false_density(confirmed_.tracks.size());
+  density_ = config_.clutter_density > 0
+                 ? config_.clutter_density
+                 : points_.false_density(confirmed_.tracks.size(), least_area(config_));
 }
 
 void ImmJpda::associate(TrackSet& set, const StepTime& at) {
@@ -127,7 +134,7 @@ void ImmJpda::start_known(const StepTime& at) {
   const double sd = config_.position_sd;
   for (const Eigen::Vector4d& mean : known_) {
     const Eigen::Matrix2d p = sd > 0 ? Eigen::Matrix2d(sd * sd * Eigen::Matrix2d::Identity())
-                                     : confirmed_.window.noise_at({mean(0), mean(2)});
+                                     : confirmed_.window.noise_at({mean(0), mean(2)}, place_);
     Gaussian<4> state;
     state.mean = mean;
     state.covariance *= config_.velocity_sd * config_.velocity_sd;
@@ -163,7 +170,7 @@ void ImmJpda::start_tracks(const StepTime& at) {
     const Eigen::Vector2d velocity = (pair.now.position - pair.before.position) / elapsed_;
     Gaussian<4> state;
     state.mean << pair.now.position.x(), velocity.x(), pair.now.position.y(), velocity.y();
-    const Eigen::Matrix2d r = tentative_.window.noise_at(pair.now.position);
+    const Eigen::Matrix2d r = tentative_.window.noise_at(pair.now.position, place_);
     state.covariance << r(0, 0) * axis, r(0, 1) * axis, r(1, 0) * axis, r(1, 1) * axis;
     add(tentative_, state, pair.now.amplitude, at);
   }

@@ -7,10 +7,10 @@ namespace {
 void describe_motion(FieldList& f, ImmJpdaConfig& c) {
   f("motion", c.motion, {"ncv", "ncv+ncv", "ncv+wpa", "ncv+wpa+wpa"},
     "models that a target switches between: nearly constant velocity, Wiener-process acceleration");
-  f("noise", c.noise, 0, 1e6, "px/time^2", "acceleration in a step, of the first model");
-  f("noise_agile", c.noise_agile, 0, 1e6, "px/time^2",
+  f("noise", c.noise, 0, 1e9, "px/time^2", "acceleration in a step, of the first model");
+  f("noise_agile", c.noise_agile, 0, 1e9, "px/time^2",
     "the same of a second ncv; of the first wpa, what its acceleration changes by in a step");
-  f("noise_jump", c.noise_jump, 0, 1e6, "px/time^2", "of the second wpa");
+  f("noise_jump", c.noise_jump, 0, 1e9, "px/time^2", "of the second wpa");
   f("stay", c.stay, 0, 1, "", "probability that a target keeps its model from scan to scan");
   f("clock", c.clock, {"frames", "seconds"},
     "unit of time of every setting: seconds for time stamps that are not regular");
@@ -20,9 +20,9 @@ void describe_association(FieldList& f, ImmJpdaConfig& c) {
   f("measurement", c.measurement,
     {{"position", MeasuredQuantity::position}, {"range-azimuth", MeasuredQuantity::range_azimuth}},
     "what the sensor measures, and so how its points scatter");
-  f("measurement_variance", c.measurement_variance, 1e-6, 1e6, "px^2",
+  f("measurement_variance", c.measurement_variance, 1e-12, 1e18, "px^2",
     "of a point's position along each axis, if positions are measured");
-  f("range_sd", c.range_sd, 1e-6, 1e6, "px", "spread of a measured range");
+  f("range_sd", c.range_sd, 1e-6, 1e9, "px", "spread of a measured range");
   f("azimuth_sd", c.azimuth_sd, 1e-9, 3.2, "rad", "spread of a measured azimuth");
   f("linearisation", c.linearisation,
     {{"ekf", Linearisation::extended}, {"ukf", Linearisation::unscented}},
@@ -32,7 +32,7 @@ void describe_association(FieldList& f, ImmJpdaConfig& c) {
   f("clutter", c.clutter,
     {{"poisson", JpdaClutter::Number::poisson}, {"any", JpdaClutter::Number::any}},
     "number of false points: Poisson, or any number as likely as any other (nonparametric)");
-  f.automatic("clutter_density", c.clutter_density, 0, 1, "1/px^2",
+  f.automatic("clutter_density", c.clutter_density, 0, 1e12, "1/px^2",
               "density of false points if Poisson; auto is the number of points beyond one a "
               "confirmed track, over the frame's area");
   f("window", c.window, 1, 3, "scans", "that are associated together");
@@ -49,10 +49,10 @@ void describe_association(FieldList& f, ImmJpdaConfig& c) {
 void describe(FieldList& f, ImmJpdaConfig& c) {
   describe_motion(f, c);
   describe_association(f, c);
-  f.automatic("position_sd", c.position_sd, 0, 1e6, "px",
+  f.automatic("position_sd", c.position_sd, 0, 1e9, "px",
               "spread of the position of a track that is started from a known one; auto is that of "
               "a point");
-  f("velocity_sd", c.velocity_sd, 0, 1e6, "px/time", "spread of its velocity");
+  f("velocity_sd", c.velocity_sd, 0, 1e9, "px/time", "spread of its velocity");
   describe(f, static_cast<PointTrackConfig&>(c));
 }
 

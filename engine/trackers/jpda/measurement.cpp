@@ -11,9 +11,11 @@
 namespace glint {
 namespace {
 
-constexpr double kLeastRange = 1e-9;  // [length]
-
-double at_least_range(double range) { return std::max(range, kLeastRange); }
+/// Nearer to the sensor there is no direction [length]: far less than the noise of a range.
+template <class Sensor>
+double least_range(const Sensor& sensor) {
+  return 1e-9 * std::sqrt(sensor.noise(0, 0));
+}
 
 template <class Sensor>
 Gaussian<Sensor::kAxes> position_at(const Sensor& sensor, const Place<Sensor>& position) {
@@ -40,7 +42,7 @@ Eigen::Vector3d expected_measurement(const RangeAzimuthElevation& sensor,
 
 Eigen::Matrix2d jacobian(const RangeAzimuth& sensor, const Eigen::Vector2d& position) {
   Eigen::Vector2d d = position - sensor.place;
-  if (d.norm() < kLeastRange) d = {kLeastRange, 0};
+  if (d.norm() < least_range(sensor)) d = {least_range(sensor), 0};
   const double range = d.norm(), square = d.squaredNorm();
   return (Eigen::Matrix2d() << d.x() / range, d.y() / range,  //
           -d.y() / square, d.x() / square)
@@ -49,7 +51,8 @@ Eigen::Matrix2d jacobian(const RangeAzimuth& sensor, const Eigen::Vector2d& posi
 
 Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vector3d& position) {
   Eigen::Vector3d d = position - sensor.place;
-  if (d.head<2>().norm() < kLeastRange) d.head<2>() = Eigen::Vector2d(kLeastRange, 0);
+  if (d.head<2>().norm() < least_range(sensor))
+    d.head<2>() = Eigen::Vector2d(least_range(sensor), 0);
   const double ground = d.head<2>().norm(), range = d.norm(), square = d.squaredNorm();
   return (Eigen::Matrix3d() << d.x() / range, d.y() / range, d.z() / range,  //
           -d.y() / (ground * ground), d.x() / (ground * ground), 0,          //
@@ -58,14 +61,14 @@ Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vecto
 }
 
 Gaussian<2> inverse_measurement(const RangeAzimuth& sensor, const Eigen::Vector2d& measurement) {
-  const double range = at_least_range(measurement(0)), azimuth = measurement(1);
+  const double range = std::max(measurement(0), least_range(sensor)), azimuth = measurement(1);
   return position_at(sensor, sensor.place + range * Eigen::Vector2d(std::cos(azimuth),  //
                                                                     std::sin(azimuth)));
 }
 
 Gaussian<3> inverse_measurement(const RangeAzimuthElevation& sensor,
                                 const Eigen::Vector3d& measurement) {
-  const double range = at_least_range(measurement(0)), azimuth = measurement(1),
+  const double range = std::max(measurement(0), least_range(sensor)), azimuth = measurement(1),
                elevation = measurement(2);
   const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                                   std::cos(elevation) * std::sin(azimuth), std::sin(elevation));

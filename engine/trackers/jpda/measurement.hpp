@@ -21,7 +21,7 @@ struct PositionSensor {
     return std::tie(s.noise);
   }
 };
-/// Range [length] and azimuth [rad].
+/// Range [length] and azimuth [rad]; their noise is above 0.
 struct RangeAzimuth {
   static constexpr int kAxes = 2, kSize = 2, kAzimuth = 1;
   Eigen::Matrix2d noise = Eigen::Matrix2d::Identity();
@@ -31,7 +31,7 @@ struct RangeAzimuth {
     return std::tie(s.noise, s.place);
   }
 };
-/// Range [length], azimuth and elevation above the plane of x and y [rad].
+/// Range [length], azimuth and elevation above the plane of x and y [rad]; their noise is above 0.
 struct RangeAzimuthElevation {
   static constexpr int kAxes = 3, kSize = 3, kAzimuth = 1;
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();

@@ -44,7 +44,8 @@ LinearMeasurement<Sensor> unscented(const Sensor& sensor, const Gaussian<Sensor:
     }
     return difference;
   };
-  const double least = 1e-6 * (1 + position.mean.norm());  // a shorter chord is all rounding
+  // A shorter chord is all rounding. Number 0 of a measurement is the range.
+  const double least = 1e-6 * (centre(0) + std::sqrt(sensor.noise(0, 0)));
   Measurement<Sensor> shift = Measurement<Sensor>::Zero();
   LinearMeasurement<Sensor> result;
   result.covariance.setZero(), result.jacobian.setZero();

@@ -2,6 +2,7 @@
 #include "glint/engine/trackers/jpda/sensor_window.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "glint/engine/state/fields.hpp"
 
@@ -40,9 +41,11 @@ MultiscanReport SensorWindow::step(std::span<const Eigen::Vector2d> points,
     measurements_.push_back(expected_measurement(sensor, point));
     range += measurements_.back()(0);
   }
-  // At range r a square pixel is 1/r wide in azimuth: the density is scaled by the points' mean r.
-  const double mean = points.empty() ? 1 : std::max(range / double(points.size()), 1e-6);
-  return window.step(measurements_, sensor, density * mean, elapsed);
+  // At range r a square pixel is 1/r wide in azimuth: the density is scaled by the points' mean r,
+  // at least by the noise of a range.
+  const double mean = points.empty() ? 0 : range / static_cast<double>(points.size());
+  const double range_sd = std::sqrt(sensor.noise(0, 0));
+  return window.step(measurements_, sensor, density * std::max(mean, range_sd), elapsed);
 }
 
 const Imm& SensorWindow::estimate(std::size_t target) const {
@@ -66,25 +69,25 @@ std::size_t SensorWindow::targets() const {
   return std::visit([](const auto& m) { return m.window.targets(); }, window_);
 }
 
-// The sensor's place comes with every scan, but noise_at() needs that of the last one.
+// The sensor is that of the settings, and its place comes with every scan.
 void SensorWindow::put_to(ByteWriter& to) const {
-  std::visit([&](const auto& m) { put_bytes(to, m.window), put_bytes(to, m.sensor); }, window_);
+  std::visit([&](const auto& m) { put_bytes(to, m.window); }, window_);
 }
 
 void SensorWindow::take_from(ByteReader& from) {
-  std::visit([&](auto& m) { take_bytes(from, m.window), take_bytes(from, m.sensor); }, window_);
+  std::visit([&](auto& m) { take_bytes(from, m.window); }, window_);
 }
 
 void SensorWindow::require_alike(const Imm& bank) const {
   std::visit([&](const auto& m) { m.window.require_alike(bank); }, window_);
 }
 
-Eigen::Matrix2d SensorWindow::noise_at(const Eigen::Vector2d& position) const {
-  return std::visit(
-      [&](const auto& m) {
-        return inverse_measurement(m.sensor, expected_measurement(m.sensor, position)).covariance;
-      },
-      window_);
+Eigen::Matrix2d SensorWindow::noise_at(const Eigen::Vector2d& position,
+                                       const Eigen::Vector2d& place) const {
+  if (const auto* positions = std::get_if<0>(&window_)) return positions->sensor.noise;
+  RangeAzimuth sensor = std::get<1>(window_).sensor;
+  sensor.place = place;
+  return inverse_measurement(sensor, expected_measurement(sensor, position)).covariance;
 }
 
 }  // namespace glint

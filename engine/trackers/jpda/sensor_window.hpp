@@ -37,8 +37,8 @@ class SensorWindow {
   double missed(std::size_t target) const;
   std::span<const std::uint32_t> gated(std::size_t target) const;
   std::span<const double> shares(std::size_t target) const;
-  /// Covariance of a point at `position` [px^2], seen from the sensor's last place.
-  Eigen::Matrix2d noise_at(const Eigen::Vector2d& position) const;
+  /// Covariance of a point at `position` that is seen from `place` [px^2].
+  Eigen::Matrix2d noise_at(const Eigen::Vector2d& position, const Eigen::Vector2d& place) const;
   std::size_t targets() const;
 
   /// For checkpoints: into a window of the same settings. `bank` has the models of all targets.

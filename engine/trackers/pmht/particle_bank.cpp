@@ -12,6 +12,7 @@ namespace glint {
 namespace {
 
 constexpr double kCollapse = 25;  // squared distance of the nearest particle over the variance
+constexpr double kCell = 16384;   // side of a cell of origins, in standard deviations of a point
 
 /// Lower triangle whose square is `covariance`, which may be singular.
 template <int N>
@@ -65,8 +66,16 @@ void set_state(std::vector<float>& states, std::size_t particle,
 }
 
 template <int N>
-int size_of(const Gaussian<N>&) {
-  return N;
+Eigen::Vector2d position_in(const Eigen::Matrix<double, N, 1>& state) {
+  return {state(0), state(N / 2)};
+}
+
+/// What moves a state's position by `shift`.
+template <int N>
+Eigen::Matrix<double, N, 1> by(const Eigen::Vector2d& shift) {
+  Eigen::Matrix<double, N, 1> state = Eigen::Matrix<double, N, 1>::Zero();
+  state(0) = shift.x(), state(N / 2) = shift.y();
+  return state;
 }
 
 }  // namespace
@@ -107,12 +116,32 @@ RandomKey ParticleBank::key(const Cloud& cloud, Purpose purpose) const {
   return random_key(cloud.seed, scan_, purpose);
 }
 
+/// A float has 7 digits, so positions count from the next corner of a coarse grid: 14 bits hold the
+/// way from there, and 10 are left for a point's standard deviation.
+Eigen::Vector2d ParticleBank::origin_near(const Eigen::Vector2d& position) const {
+  const double side = kCell * std::sqrt(variance_);
+  return side * (position / side).array().round();
+}
+
+template <int N>
+void ParticleBank::recentre(Cloud& cloud, const Gaussian<N>& belief) const {
+  const Eigen::Vector2d origin = origin_near(position_in(belief.mean));
+  if (origin == cloud.origin) return;
+  const Eigen::Matrix<double, N, 1> shift = by<N>(cloud.origin - origin);
+  for (std::size_t p = 0; p < size(); ++p) {
+    set_state<N>(cloud.state, p, state_of<N>(cloud.state, p) + shift);
+  }
+  cloud.origin = origin;
+}
+
 template <int N>
 void ParticleBank::draw(Cloud& cloud, const Gaussian<N>& belief) {
   const Eigen::Matrix<double, N, N> root = root_of(belief.covariance);
+  cloud.origin = origin_near(position_in(belief.mean));
+  const Eigen::Matrix<double, N, 1> mean = belief.mean - by<N>(cloud.origin);
   cloud.state.resize(N * size());
   for (std::size_t p = 0; p < size(); ++p) {
-    set_state<N>(cloud.state, p, belief.mean + root * normals<N>(key(cloud, Purpose::birth), p));
+    set_state<N>(cloud.state, p, mean + root * normals<N>(key(cloud, Purpose::birth), p));
   }
 }
 
@@ -144,6 +173,7 @@ Gaussian<N> ParticleBank::moments(const Cloud& cloud, std::span<const float> wei
     const Eigen::Matrix<double, N, 1> off = state_of<N>(cloud.state, p) - result.mean;
     result.covariance += weight(p) / sum * off * off.transpose();
   }
+  result.mean += by<N>(cloud.origin);
   symmetrise(result.covariance);
   return result;
 }
@@ -157,6 +187,7 @@ void ParticleBank::predict(double step) {
         [&](auto& mode) {
           constexpr int kParts = std::remove_cvref_t<decltype(mode.model)>::kParts;
           if (cloud.collapsed) draw(cloud, mode.belief);  // from N(x_0m, P_0m)
+          recentre(cloud, mode.belief);
           cloud.collapsed = false;
           move(cloud, linear_motion<2>(mode.model, step));
           mode.belief = moments<2 * kParts>(cloud, {});
@@ -166,9 +197,7 @@ void ParticleBank::predict(double step) {
 }
 
 PmhtMode ParticleBank::mode(std::size_t model) const {
-  const auto position = [](const auto& mode) -> Eigen::Vector2d {
-    return {mode.belief.mean(0), mode.belief.mean(size_of(mode.belief) / 2)};
-  };
+  const auto position = [](const auto& mode) { return position_in(mode.belief.mean); };
   return {std::visit(position, imm_.modes()[model]), imm_.probability()[model]};
 }
 
@@ -177,7 +206,8 @@ template <int N>
 void ParticleBank::distances(const Cloud& cloud, const Eigen::Vector2d& to) const {
   const float* x = cloud.state.data();
   const float* y = x + N / 2 * size();
-  const auto to_x = static_cast<float>(to.x()), to_y = static_cast<float>(to.y());
+  const auto to_x = static_cast<float>(to.x() - cloud.origin.x());
+  const auto to_y = static_cast<float>(to.y() - cloud.origin.y());
   for (std::size_t p = 0; p < size(); ++p) {
     const float dx = x[p] - to_x, dy = y[p] - to_y;
     weights_[p] = dx * dx + dy * dy;
@@ -206,7 +236,7 @@ Eigen::Vector2d ParticleBank::maximise(std::size_t model, const PmhtCentroid& ce
           sum += w * Eigen::Vector2d(cloud.state[p], cloud.state[kSize / 2 * size() + p]);
           all += w;
         }
-        return sum / all;
+        return cloud.origin + sum / all;
       },
       imm_.modes()[model]);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "glint/engine/filters/imm.hpp"
+#include "glint/engine/state/bytes.hpp"
 #include "glint/engine/trackers/pmht/pmht_em.hpp"
 #include "glint/kernels/core/random.hpp"
 #include "glint/kernels/resample/resample.hpp"
@@ -43,19 +44,24 @@ class ParticleBank {
 
  private:
   struct Cloud {
+    Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // that the positions count from
     std::vector<float> state;  // number by number of the model's state, each of all particles
     std::uint64_t seed = 0;    // of its draws
     bool collapsed = false;
     template <class Self>
     static auto fields(Self& s) {
-      return std::tie(s.state, s.seed, s.collapsed);
+      return std::tie(s.origin, s.state, s.seed, s.collapsed);
     }
+    void restored() const { require_bytes(origin.allFinite(), "particles are nowhere"); }
   };
 
   std::size_t size() const { return static_cast<std::size_t>(particles_); }
   RandomKey key(const Cloud& cloud, Purpose purpose) const;
   template <int N>
   void draw(Cloud& cloud, const Gaussian<N>& belief);
+  Eigen::Vector2d origin_near(const Eigen::Vector2d& position) const;
+  template <int N>
+  void recentre(Cloud& cloud, const Gaussian<N>& belief) const;
   template <int N>
   void move(Cloud& cloud, const LinearMotion<N>& motion);
   template <int N>

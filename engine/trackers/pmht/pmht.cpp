@@ -73,7 +73,8 @@ void PmhtTracker<Config, Bank>::take_points(const Scan& scan) {
   settings_.origins.clutter =
       config_.clutter_density > 0
           ? config_.clutter_density
-          : points_.false_density(static_cast<std::size_t>(of_targets), config_.gate);
+          : points_.false_density(static_cast<std::size_t>(of_targets),
+                                  config_.measurement_variance, config_.gate);
 }
 
 template <class Config, class Bank>

@@ -12,12 +12,12 @@ void describe_motion(FieldList& f, PmhtConfig& c) {
     {"ca+singer", "ca", "singer", "cv", "ca+ca", "singer+singer", "cv+ca", "cv+singer",
      "cv+ca+singer"},
     "models that a target switches between");
-  f("cv_noise", c.cv_noise, 0, 1e6, "px^2/time^3",
+  f("cv_noise", c.cv_noise, 0, 1e18, "px^2/time^3",
     "of constant velocity: power spectral density of the acceleration");
-  f("ca_noise", c.ca_noise, 0, 1e6, "px^2/time^4",
+  f("ca_noise", c.ca_noise, 0, 1e18, "px^2/time^4",
     "of constant acceleration: variance by which it jumps at each step");
   f("singer_fading", c.singer_fading, 0, 1e6, "1/time", "rate at which acceleration fades");
-  f("singer_variance", c.singer_variance, 0, 1e6, "px^2/time^4", "of that acceleration");
+  f("singer_variance", c.singer_variance, 0, 1e18, "px^2/time^4", "of that acceleration");
   f("noise_ratio", c.noise_ratio, 1, 1e6, "",
     "of two models of one kind the second has so many times the noise");
   f("stay", c.stay, 0, 1, "", "probability that a target keeps its model from scan to scan");
@@ -26,18 +26,18 @@ void describe_motion(FieldList& f, PmhtConfig& c) {
 }
 
 void describe_association(FieldList& f, PmhtConfig& c) {
-  f("measurement_variance", c.measurement_variance, 1e-6, 1e6, "px^2",
+  f("measurement_variance", c.measurement_variance, 1e-12, 1e18, "px^2",
     "of a point's position along each axis");
-  f("gate", c.gate, 0.1, 1e6, "px", "half side of the square about a track in which points count");
+  f("gate", c.gate, 1e-6, 1e9, "px", "half side of the square about a track in which points count");
   f("detection", c.detection, 0.01, 0.9999, "", "probability that a target gives a point");
-  f.automatic("clutter_density", c.clutter_density, 0, 1, "1/px^2",
+  f.automatic("clutter_density", c.clutter_density, 0, 1e12, "1/px^2",
               "density of false points; auto is the number of points beyond one a confirmed track, "
               "over the frame's area");
   f("association", c.association, {"per-model", "mixture"},
     "a model competes for points with the same model of other targets, or the models of a target "
     "together with those of others");
   f("iterations", c.iterations, 1, 10000, "", "most of expectation maximisation a scan");
-  f("tolerance", c.tolerance, 0, 1000, "px", "it ends when nothing moves further");
+  f("tolerance", c.tolerance, 0, 1e9, "px", "it ends when nothing moves further");
 }
 
 }  // namespace
@@ -68,15 +68,15 @@ std::vector<std::string> parts_of(const std::string& motion) {
   return parts;
 }
 
-/// Of one axis: position, velocity and acceleration at the start, and their covariance, which for
-/// R = 9 and a step of 1 is the [[9,9,0],[9,18,0],[0,0,4]] of the paper's clips.
-Gaussian<3> axis_start(double position, double velocity, double variance, double step) {
-  constexpr double kAcceleration = 4;  // variance [px^2/frame^4]
+/// Of one axis: position, velocity and acceleration at the start, and their covariance. For R = 9,
+/// speed_max = 20 and a step of 1 it is the [[9,9,0],[9,18,0],[0,0,4]] of the paper's clips.
+Gaussian<3> axis_start(double position, double velocity, double step, const PmhtConfig& config) {
+  constexpr double kSteps = 10;  // in which a new target may gain its largest speed
+  const double r = config.measurement_variance, acceleration = config.speed_max / (kSteps * step);
   Gaussian<3> axis;
   axis.mean << position, velocity, 0;
-  axis.covariance << variance, variance / step, 0,  //
-      variance / step, 2 * variance / (step * step), 0, 0, 0,
-      kAcceleration / (step * step * step * step);
+  axis.covariance << r, r / step, 0, r / step, 2 * r / (step * step), 0, 0, 0,
+      acceleration * acceleration;
   return axis;
 }
 
@@ -102,9 +102,8 @@ std::vector<std::string> pmht_mode_names(const PmhtConfig& config) {
 }
 
 Imm pmht_bank(const PmhtConfig& config, const PmhtStart& start) {
-  const double r = config.measurement_variance;
-  const Gaussian<3> x = axis_start(start.position.x(), start.velocity.x(), r, start.step);
-  const Gaussian<3> y = axis_start(start.position.y(), start.velocity.y(), r, start.step);
+  const Gaussian<3> x = axis_start(start.position.x(), start.velocity.x(), start.step, config);
+  const Gaussian<3> y = axis_start(start.position.y(), start.velocity.y(), start.step, config);
   Imm::Modes modes;
   for (const std::string& name : pmht_mode_names(config)) {
     const double scale = name.ends_with("-agile") ? config.noise_ratio : 1;

@@ -25,7 +25,7 @@ struct PointTracker : FakeTracker {
   }
   Feed fed;
   PointFinder finder;
-  std::vector<Point> own;
+  std::vector<PointMeasurement> own;
   std::vector<std::size_t> counts;
 };
 
@@ -79,13 +79,13 @@ TEST(Points, UnitsAreBlocksAboveTheFramesMeanIntensity) {
   for (int y = 0; y < 10; ++y) std::fill_n(raw.view().row(y), 20, 10.0F);
   for (int y = 5; y < 10; ++y) std::fill_n(raw.view().row(y) + 10, 5, 14.0F);
   const Scan scan = scan_of(std::move(raw));
-  std::vector<Point> points;
+  std::vector<PointMeasurement> points;
   for (const Device& device : {Device::serial(), Device::tbb(2)}) {
     PointsConfig config;
     config.mode = FindPoints::Mode::unit_5x5;
     config.unit_threshold = 14 / 10.5 - 1e-4;
     PointFinder(config, device).find(scan, points);
-    EXPECT_EQ(points, (std::vector<Point>{{12, 7, 14}}));
+    EXPECT_EQ(points, (std::vector<PointMeasurement>{{12, 7, 14}}));
     config.unit_threshold = 14 / 10.5 + 1e-4;
     PointFinder(config, device).find(scan, points);
     EXPECT_TRUE(points.empty());
@@ -96,7 +96,7 @@ TEST(Points, OfAScanWithoutFramesAreNone) {
   for (const auto mode : {FindPoints::Mode::local_maximum, FindPoints::Mode::unit_5x5}) {
     PointsConfig config;
     config.mode = mode;
-    std::vector<Point> points(3);
+    std::vector<PointMeasurement> points(3);
     PointFinder(config, Device::tbb(2)).find(Scan{}, points);
     EXPECT_TRUE(points.empty()) << static_cast<int>(mode);
   }

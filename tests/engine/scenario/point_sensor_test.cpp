@@ -101,10 +101,10 @@ TEST(PmhtClips, TheCrowdStaysInThePictureAndVaries) {
 
 TEST(PointSensor, SeesEveryTargetAtItsNearestPixel) {
   const Scene scene = clip("bs44");
-  const std::vector<Point> points = points_at(scene, {}, 1, 20);
+  const std::vector<PointMeasurement> points = points_at(scene, {}, 1, 20);
   ASSERT_EQ(points.size(), 2u);
   for (const TruthPoint& t : truth_at(scene, 20)) {
-    EXPECT_TRUE(std::ranges::any_of(points, [&](const Point& p) {
+    EXPECT_TRUE(std::ranges::any_of(points, [&](const PointMeasurement& p) {
       return static_cast<double>(p.x) == std::round(t.x) &&
              static_cast<double>(p.y) == std::round(t.y);
     }));
@@ -119,7 +119,7 @@ TEST(PointSensor, ErrorsHaveTheirVarianceAndThatOfRounding) {
   int count = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const auto truth = truth_at(scene, 30);
-    for (const Point& p : points_at(scene, sensor, seed, 30)) {
+    for (const PointMeasurement& p : points_at(scene, sensor, seed, 30)) {
       double best = 1e9, error = 0;
       for (const TruthPoint& t : truth) {
         const double off =
@@ -145,8 +145,8 @@ TEST(PointSensor, ClutterIsAFixedNumberOverAllPixelsFromTheThirdFrameOn) {
   for (int frame = 2; frame < 42; ++frame) {
     const auto points = points_at(scene, sensor, 1, frame);
     EXPECT_EQ(points.size(), 81u);
-    EXPECT_TRUE(std::ranges::is_sorted(points, {}, &Point::y));
-    for (const Point& p : points) {
+    EXPECT_TRUE(std::ranges::is_sorted(points, {}, &PointMeasurement::y));
+    for (const PointMeasurement& p : points) {
       EXPECT_TRUE(p.x >= 0 && p.x < 1024 && p.y >= 0 && p.y < 256);
       ++all, left += p.x < 512, top += p.y < 128;
     }

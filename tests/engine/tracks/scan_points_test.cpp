@@ -10,16 +10,16 @@
 namespace glint {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-Scan scan_of(const std::vector<Point>& points) {
+Scan scan_of(const std::vector<PointMeasurement>& points) {
   Scan scan;
   scan.points = points;
   return scan;
 }
 
 TEST(ScanPoints, AreThoseWhosePlaceIsKnown) {
-  const std::vector<Point> points{{1, 2, 5}, {kNan, 2, 5}, {3, kNan, 5}, {4, 6, kNan}};
+  const std::vector<PointMeasurement> points{{1, 2, 5}, {kNan, 2, 5}, {3, kNan, 5}, {4, 6, kNan}};
   ScanPoints taken;
   taken.take(scan_of(points));
   ASSERT_EQ(taken.positions.size(), 2u);
@@ -30,7 +30,7 @@ TEST(ScanPoints, AreThoseWhosePlaceIsKnown) {
 }
 
 TEST(ScanPoints, AreFreeUntilHalfOfThemIsClaimed) {
-  const std::vector<Point> points{{1, 2, 5}, {3, 2, 5}};
+  const std::vector<PointMeasurement> points{{1, 2, 5}, {3, 2, 5}};
   ScanPoints taken;
   taken.take(scan_of(points));
   taken.claimed[0] = 0.49, taken.claimed[1] = 0.5;
@@ -56,9 +56,18 @@ TEST(ScanPoints, FalseOnesAreThoseBeyondOneATarget) {
   ScanPoints taken;
   taken.take(scan_of({{0, 0, 1}, {10, 20, 1}}));
   taken.take(scan_of({{1, 1, 1}, {2, 2, 1}, {3, 3, 1}, {4, 4, 1}, {5, 5, 1}}));
-  EXPECT_DOUBLE_EQ(taken.false_density(2), 3.0 / 200);
-  EXPECT_DOUBLE_EQ(taken.false_density(9), 1.0 / 200);
-  EXPECT_DOUBLE_EQ(taken.false_density(2, 5), 3.0 / (20 * 30));
+  EXPECT_DOUBLE_EQ(taken.false_density(2, 9), 3.0 / 200);
+  EXPECT_DOUBLE_EQ(taken.false_density(9, 9), 1.0 / 200);
+  EXPECT_DOUBLE_EQ(taken.false_density(2, 9, 5), 3.0 / (20 * 30));
+}
+
+TEST(ScanPoints, LieInAnAreaEvenIfAllInOnePlace) {
+  ScanPoints taken;
+  EXPECT_EQ(taken.area.size(0.25), 0.25);
+  taken.take(scan_of({{500000, 5000000, 1}, {500003, 5000000, 1}}));
+  EXPECT_EQ(taken.area.size(0.25), 0.25);
+  EXPECT_EQ(taken.area.size(0.25, 1), 5 * 2);
+  EXPECT_EQ(taken.false_density(0, 0.25), 2 / 0.25);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace glint {
 namespace {
 
-using Points = std::vector<Point>;
+using Points = std::vector<PointMeasurement>;
 constexpr float kBright = 8;  // [sigma]
 
 /// A tracker on frames of 100x100 pixels, and its log.
@@ -63,8 +63,8 @@ TEST(ImmPdaAi, WithoutClutterIsAKalmanFilter) {
   Eigen::Vector4d x(20, 1, 30, -0.5);
   Eigen::Matrix4d p = Eigen::Vector4d(1, 4, 1, 4).asDiagonal();  // R, velocity_sd^2
   for (int k = 1; k <= 20; ++k) {
-    const Point z{sixteenths(20 + 1.2 * k + std::sin(k)),
-                  sixteenths(30 - 0.4 * k + std::cos(2 * k)), kBright};
+    const PointMeasurement z{sixteenths(20 + 1.2 * k + std::sin(k)),
+                             sixteenths(30 - 0.4 * k + std::cos(2 * k)), kBright};
     run.step({z});
     x = f * x, p = f * p * f.transpose() + q;
     const Eigen::Matrix2d s = h * p * h.transpose() + Eigen::Matrix2d::Identity();

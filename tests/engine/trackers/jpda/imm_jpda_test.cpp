@@ -15,13 +15,13 @@
 namespace glint {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Plays scans of points to a tracker.
 class Player {
  public:
   explicit Player(const ImmJpdaConfig& config) : tracker(config, Device::serial(), 1) {}
-  void scan(double time, const std::vector<Point>& points) {
+  void scan(double time, const std::vector<PointMeasurement>& points) {
     Scan scan;
     scan.frame = frame++, scan.time = time, scan.points = points;
     tracker.step(scan, log);
@@ -33,7 +33,7 @@ class Player {
   std::int64_t frame = 0;
 };
 
-Point at(double x, double y) { return {static_cast<float>(x), static_cast<float>(y), 10}; }
+PointMeasurement at(double x, double y) { return {x, y, 10}; }
 
 ImmJpdaConfig known_targets() {
   ImmJpdaConfig config;
@@ -71,7 +71,7 @@ TEST_P(ImmJpdaOf, FollowsCrossingTargetsThroughClutter) {
     Player player(windowed(known_targets()));
     player.tracker.start(10, 40, 2, 0.5), player.tracker.start(10, 60, 2, -0.5);
     for (int k = 0; k < 40; ++k) {
-      std::vector<Point> points;
+      std::vector<PointMeasurement> points;
       const double x = 10 + 2 * k, up = 40 + 0.5 * k, down = 60 - 0.5 * k;
       for (const double y : {up, down}) {
         if (uniform(random) < 90) points.push_back(at(x + noise(random), y + noise(random)));
@@ -157,7 +157,7 @@ TEST_P(ImmJpdaOf, PointsThatAreNoPlaceAreIgnored) {
   Player with(windowed(known_targets())), without(windowed(known_targets()));
   for (Player* player : {&with, &without}) player->tracker.start(0, 0, 1, 0);
   for (int k = 0; k < 6; ++k) {
-    with.scan(k, {{kNan, 1, 1}, at(k, 0), {2, std::numeric_limits<float>::infinity(), 1}});
+    with.scan(k, {{kNan, 1, 1}, at(k, 0), {2, std::numeric_limits<double>::infinity(), 1}});
     without.scan(k, {at(k, 0)});
   }
   EXPECT_EQ(with.log.text(), without.log.text());
@@ -169,7 +169,7 @@ TEST_P(ImmJpdaOf, TheOrderOfPointsDoesNotMatter) {
     player->tracker.start(0, 0, 1, 0), player->tracker.start(0, 4, 1, 0);
   }
   for (int k = 0; k < 12; ++k) {
-    std::vector<Point> points{at(k, 0.3), at(k + 1, 2), at(k, 4)};
+    std::vector<PointMeasurement> points{at(k, 0.3), at(k + 1, 2), at(k, 4)};
     one.scan(k, points);
     std::ranges::reverse(points);
     other.scan(k, points);
@@ -235,7 +235,7 @@ TEST(ImmJpda, TheBestPermutationKeepsTargetsApartThatWereOnePoint) {
     Player player(config);
     player.tracker.start(0, 0, 1, 0), player.tracker.start(0, 6, 1, 0);
     for (int k = 0; k < 40; ++k) {
-      std::vector<Point> points{at(k + noise(random), 6 + noise(random))};
+      std::vector<PointMeasurement> points{at(k + noise(random), 6 + noise(random))};
       if (k < 5 || k > 15) points.push_back(at(k + noise(random), noise(random)));
       player.scan(k, points);
     }
@@ -279,7 +279,7 @@ TEST(ImmJpda, TellsHowItAssociated) {
   ImmJpdaConfig config = known_targets();
   Player player(config);
   for (int t = 0; t < 30; ++t) player.tracker.start(t, 0, 0, 0);
-  std::vector<Point> points;
+  std::vector<PointMeasurement> points;
   for (int p = 0; p < 60; ++p) points.push_back(at(0.5 * p, 0.1 * p));
   for (int k = 0; k < 3; ++k) player.scan(k, points);
   const auto notes = player.tracker.notes();

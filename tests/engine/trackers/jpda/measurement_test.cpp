@@ -179,6 +179,32 @@ TEST(Measurement, IsFiniteAtTheSensor) {
   }
 }
 
+TEST(Measurement, ChordsOfAShortSpreadAreTheTangentFarFromTheOriginToo) {
+  RangeAzimuth sensor = radar();
+  sensor.place << 500000, 5000000;
+  Gaussian<4> state = at(sensor.place.x() + 0.6, sensor.place.y() - 0.8, 1e-12);
+  const auto ekf = predict_measurement(state, sensor, Linearisation::extended);
+  const auto ukf = predict_measurement(state, sensor, Linearisation::unscented);
+  EXPECT_LT((ekf.mean - ukf.mean).norm(), 1e-6);
+  EXPECT_LT((ekf.gain - ukf.gain).norm(), 1e-3 * ekf.gain.norm());
+}
+
+TEST(Measurement, AUnitOfLengthIsFreeAtTheSensorToo) {
+  for (const double length : {0.1, 1000.0}) {
+    RangeAzimuth sensor, scaled;
+    scaled.noise(0, 0) *= length * length;
+    const Eigen::Vector2d to_measurement(1, length);
+    const Eigen::Matrix2d expected = jacobian(sensor, {0, 0});
+    EXPECT_LT((to_measurement.asDiagonal() * jacobian(scaled, {0, 0}) - expected).norm(),
+              1e-9 * expected.norm());
+    Gaussian<4> still;
+    still.covariance.setZero();
+    const auto chords = predict_measurement(still, sensor, Linearisation::unscented);
+    const auto in_unit = predict_measurement(still, scaled, Linearisation::unscented);
+    EXPECT_NEAR(in_unit.mean(0) / length, chords.mean(0), 1e-9 * chords.mean(0));
+  }
+}
+
 TEST(Measurement, GateVolumeIsThatOfTheEllipsoid) {
   const auto flat = predict_position(at(0, 0, 3), 6 * Eigen::Matrix2d::Identity());
   EXPECT_NEAR(flat.gate_volume(16), kPi * 16 * 9, 1e-10);

@@ -36,8 +36,7 @@ double error_of(const ImmJpdaConfig& config, double range, unsigned seed) {
     const double x = -range, y = t - 15;
     const double r = std::hypot(x, y) + config.range_sd * normal(engine);
     const double a = std::atan2(y, x) + config.azimuth_sd * normal(engine);
-    const std::vector<Point> points{
-        {static_cast<float>(7 + r * std::cos(a)), static_cast<float>(-3 + r * std::sin(a)), 10}};
+    const std::vector<PointMeasurement> points{{7 + r * std::cos(a), -3 + r * std::sin(a), 10}};
     Scan scan;
     scan.frame = t, scan.time = t, scan.sensor_x = 7, scan.sensor_y = -3, scan.points = points;
     tracker.step(scan, log);
@@ -63,6 +62,18 @@ TEST(RangeAzimuth, NearAndSharpBothFollowThroughAzimuthPi) {
   for (const Linearisation how : {Linearisation::extended, Linearisation::unscented}) {
     EXPECT_LT(mean_error(how, 100, 0.01), 0.7) << static_cast<int>(how);
   }
+}
+
+TEST(RangeAzimuth, ATrackStartsWithTheErrorsOfItsOwnSensor) {
+  ImmJpda tracker(radar(Linearisation::extended, 2, 0.01), Device::serial(), 1);
+  TrackLog log;
+  tracker.start(500000 + 300, 5000000, 0, 1);
+  Scan scan;  // the first: no track was followed from there before
+  scan.sensor_x = 500000, scan.sensor_y = 5000000;
+  tracker.step(scan, log);
+  ASSERT_EQ(log.at(0).size(), 1u);
+  EXPECT_NEAR(log.at(0)[0].var_x, 2 * 2, 1e-6);  // along the line of sight
+  EXPECT_NEAR(log.at(0)[0].var_y, 3 * 3, 1e-6);  // 300 x 0.01 across it
 }
 
 // Where an arc of 3 sigma bends away from its tangent by many sigmas of range.

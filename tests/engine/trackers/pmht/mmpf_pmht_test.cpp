@@ -49,6 +49,29 @@ TEST(ParticleBank, ManyParticlesAreUpdatedAsOneKalmanFilter) {
   EXPECT_LT((a.covariance - b.covariance).norm(), 0.05 * a.covariance.norm());
 }
 
+TEST(ParticleBank, IsTheSameFarFromTheOrigin) {
+  // Whole cells of its grid away (of 16384 standard deviations of a point), so that the particles
+  // are the same; the target then crosses into the next cell.
+  const Eigen::Vector2d far = 3 * 16384 * Eigen::Vector2d(1000, -700);
+  const auto run = [](const Eigen::Vector2d& origin) {
+    PmhtConfig config;
+    ParticleBank cloud(pmht_bank(config, {origin + Eigen::Vector2d(24570, 50), {4, -2}, 1}), 100,
+                       kVariance, 1, 1);
+    Eigen::Vector2d maximum;
+    for (int scan = 1; scan < 6; ++scan) {
+      cloud.predict(1);
+      const auto seen = seen_at(origin.x() + 24570 + 4 * scan, origin.y() + 50 - 2 * scan);
+      maximum = cloud.maximise(0, seen[0]) - origin;
+      cloud.update(seen, seen);
+    }
+    const Eigen::Vector4d state = cloud.state().mean;
+    return Eigen::Vector4d(state(0) - origin.x(), state(2) - origin.y(), maximum.x(), maximum.y());
+  };
+  const Eigen::Vector4d near = run({0, 0});
+  EXPECT_LT((near - Eigen::Vector4d(24590, 40, 24590, 40)).norm(), 15);
+  EXPECT_LT((run(far) - near).norm(), 1e-6);
+}
+
 TEST(ParticleBank, LikelihoodIsTheMeanOverTheParticlesOfThePrediction) {
   ParticleBank cloud = particles(40000);
   cloud.predict(1);
@@ -104,8 +127,8 @@ TEST(MmpfPmht, FollowsATargetThatItIsStartedOn) {
   TrackLog log;
   tracker.start(20, 50, 3, 1);
   for (int frame = 0; frame < 30; ++frame) {
-    const std::vector<Point> points{
-        {20 + 3 * static_cast<float>(frame), 50 + static_cast<float>(frame), 8}};
+    const std::vector<PointMeasurement> points{
+        {20 + 3 * static_cast<double>(frame), 50 + static_cast<double>(frame), 8}};
     Scan scan;
     scan.frame = frame, scan.time = frame, scan.points = points;
     tracker.step(scan, log);

@@ -21,12 +21,12 @@ namespace {
 class PointRun {
  public:
   explicit PointRun(const PmhtConfig& config = {}) : tracker(config, Device::serial(), 1) {}
-  void step(std::int64_t frame, double time, const std::vector<Point>& points) {
+  void step(std::int64_t frame, double time, const std::vector<PointMeasurement>& points) {
     Scan scan;
     scan.frame = frame, scan.time = time, scan.points = points;
     tracker.step(scan, log);
   }
-  void step(std::int64_t frame, const std::vector<Point>& points) {
+  void step(std::int64_t frame, const std::vector<PointMeasurement>& points) {
     step(frame, static_cast<double>(frame), points);
   }
   std::vector<TrackPoint> at(std::int64_t frame) const { return log.at(frame); }
@@ -35,8 +35,8 @@ class PointRun {
   TrackLog log;
 };
 
-Point straight(std::int64_t frame, float y = 50) {
-  return {20 + 3 * static_cast<float>(frame), y + static_cast<float>(frame), 8};
+PointMeasurement straight(std::int64_t frame, double y = 50) {
+  return {20 + 3 * static_cast<double>(frame), y + static_cast<double>(frame), 8};
 }
 
 PmhtConfig told() {
@@ -84,7 +84,7 @@ TEST(Pmht, MissingScansAndScansWithoutPointsCoast) {
     for (int frame = 0; frame < 20; ++frame) {
       const bool gap = frame >= 8 && frame < 11;
       if (gap && !empty) continue;
-      run.step(frame, gap ? std::vector<Point>{} : std::vector{straight(frame)});
+      run.step(frame, gap ? std::vector<PointMeasurement>{} : std::vector{straight(frame)});
     }
     ASSERT_EQ(run.at(19).size(), 1u);
     EXPECT_NEAR(run.at(19)[0].x, 20 + 3 * 19, 1e-4);
@@ -105,8 +105,7 @@ TEST(Pmht, TimeStampsMayBeIrregular) {
   run.tracker.start(20, 50, 30, 10);
   double time = 0;
   for (int frame = 0; frame < 20; ++frame) {
-    run.step(frame, time,
-             {{static_cast<float>(20 + 30 * time), static_cast<float>(50 + 10 * time), 8}});
+    run.step(frame, time, {{20 + 30 * time, 50 + 10 * time, 8}});
     const TrackPoint p = run.at(frame)[0];
     EXPECT_NEAR(p.x, 20 + 30 * time, 1e-4);
     EXPECT_NEAR(p.vx, 30, 1e-3);
@@ -120,7 +119,7 @@ TEST(Pmht, TheOrderOfPointsDoesNotMatter) {
     run->tracker.start(20, 50, 3, 1), run->tracker.start(20, 60, 3, 1);
     run->step(0, {});
   }
-  std::vector<Point> points{straight(1), straight(1, 60), {25, 53, 8}, {90, 9, 8}};
+  std::vector<PointMeasurement> points{straight(1), straight(1, 60), {25, 53, 8}, {90, 9, 8}};
   a.step(1, points);
   std::reverse(points.begin(), points.end());
   b.step(1, points);
@@ -131,7 +130,7 @@ TEST(Pmht, TheOrderOfPointsDoesNotMatter) {
 }
 
 TEST(Pmht, BadPointsAreLeftOut) {
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   PointRun run, clean;
   for (int frame = 0; frame < 8; ++frame) {
     run.step(frame, {{kNan, 5, 9}, straight(frame), {5, kNan, 9}});
@@ -145,7 +144,7 @@ TEST(Pmht, StartsConfirmsAndEndsATrackByItself) {
   PointRun run;
   for (int frame = 0; frame < 25; ++frame) {
     const bool there = frame >= 3 && frame < 15;
-    run.step(frame, there ? std::vector{straight(frame)} : std::vector<Point>{});
+    run.step(frame, there ? std::vector{straight(frame)} : std::vector<PointMeasurement>{});
   }
   EXPECT_TRUE(run.at(3).empty());
   ASSERT_EQ(run.at(4).size(), 1u);
@@ -165,11 +164,11 @@ TEST(Pmht, StartsConfirmsAndEndsATrackByItself) {
 }
 
 TEST(Pmht, DimPointsStartNothingAndUnknownOnesMay) {
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  for (const float amplitude : {2.0f, kNan}) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double amplitude : {2.0, kNan}) {
     PointRun run;
     for (int frame = 0; frame < 8; ++frame) {
-      Point p = straight(frame);
+      PointMeasurement p = straight(frame);
       p.amplitude = amplitude;
       run.step(frame, {p});
     }
@@ -211,6 +210,15 @@ TEST(Pmht, FindsTheTargetsOfAClipInClutterAndLittleElse) {
   }
   EXPECT_GE(near, all * 9 / 10);
   EXPECT_LE(ids.size(), 6u);
+}
+
+TEST(Pmht, ANewTargetMayGainItsLargestSpeedInTenSteps) {
+  PmhtConfig config;
+  config.motion = "ca", config.speed_max = 30;
+  const Imm bank = pmht_bank(config, {{1, 2}, {3, 4}, 0.5});
+  const auto& belief = std::get<Mode<WienerAcceleration>>(bank.modes()[0]).belief;
+  EXPECT_NEAR(belief.covariance(2, 2), 6 * 6, 1e-12);  // [px^2/time^4]
+  EXPECT_NEAR(belief.covariance(5, 5), 6 * 6, 1e-12);
 }
 
 TEST(Pmht, BanksAreWhatTheirNamesSay) {
