@@ -53,9 +53,9 @@ class FieldList {
                   std::string help);
   template <class Enum>
   requires std::is_enum_v<Enum>
-  void operator()(std::string key, Enum& value,
+  void operator()(const std::string& key, Enum& value,
                   std::initializer_list<Choice<std::type_identity_t<Enum>>> choices,
-                  std::string help) {
+                  const std::string& help) {
     std::vector<std::string> names;
     std::vector<Enum> values;
     for (const auto& choice : choices) names.push_back(choice.name), values.push_back(choice.value);
@@ -66,7 +66,7 @@ class FieldList {
       return std::nullopt;
     };
     const auto choose = [&value, values](std::size_t i) { value = values.at(i); };
-    add_choices(std::move(key), {index, choose}, std::move(names), std::move(help));
+    add_choices(key, {index, choose}, std::move(names), help);
   }
   /// A number whose least value means that it is found from the data; written and read as "auto".
   void automatic(std::string key, double& value, double low, double high, std::string unit,

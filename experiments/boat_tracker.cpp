@@ -5,7 +5,7 @@ namespace glint {
 
 ImmJpdaConfig boat_tracker(const JpdaReading& reading) {
   ImmJpdaConfig config;
-  config.clock = "seconds";
+  config.clock = TimeUnit::seconds;
   config.motion = "ncv+ncv", config.noise = 0.05, config.noise_agile = 0.5, config.stay = 0.95;
   config.measurement_variance = 25;
   config.detection = 0.9, config.gate = 13.8, config.clutter_density = 5e-6;

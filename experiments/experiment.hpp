@@ -22,6 +22,13 @@ struct Band {
   bool holds(double value) const {  // NaN lies in no band
     return value == value && !(low && value < *low) && !(high && value > *high);
   }
+  /// The same with each end `by` further out.
+  Band widened(double by) const {
+    Band band = *this;
+    if (band.low) *band.low -= by;
+    if (band.high) *band.high += by;
+    return band;
+  }
 };
 
 /// One figure of an experiment.

@@ -28,7 +28,7 @@ struct Case {
 /// Section 4: batches of 5 scans, R = 16 I and pi = .5 at the start, Q of (22).
 HPmhtConfig h_pmht() {
   HPmhtConfig config;
-  config.intensity = "rpim";
+  config.intensity = CellIntensity::rpim;
   config.batch = 5, config.iterations = 20;
   config.estimate_extent = true, config.extent = 16;
   config.process_noise = 1, config.velocity_variance = 1;
@@ -38,10 +38,10 @@ HPmhtConfig h_pmht() {
   return config;
 }
 
-/// Units whose mean exceeds `scale` times the threshold: (20), or (23) for "displayed".
-ImmPdaAiConfig imm_pda_ai(const char* threshold, double scale) {
+/// Units whose mean exceeds `scale` times the threshold.
+ImmPdaAiConfig imm_pda_ai(UnitThreshold threshold, double scale) {
   ImmPdaAiConfig config;
-  config.points = "units", config.threshold = threshold, config.threshold_scale = scale;
+  config.points = PointOrigin::units, config.threshold = threshold, config.threshold_scale = scale;
   config.initiate = false;
   config.life.halt_misses = 1000;
   return config;
@@ -96,8 +96,12 @@ ExperimentResult run_hpmht_table_2(const ExperimentOptions& options, Workers& wo
     const auto i = static_cast<std::size_t>(s - 1);
     cases.push_back({title("h-pmht", s), s, runner(s, h_pmht()), kHPmht[i], Band{95, {}},
                      Band{{}, kMostDeviation[i]}});
-    cases.push_back(
-        {title("imm-pda-ai", s), s, runner(s, imm_pda_ai("mean", 1.1)), kImmPda[i], {}, {}});
+    cases.push_back({title("imm-pda-ai", s),
+                     s,
+                     runner(s, imm_pda_ai(UnitThreshold::mean, 1.1)),
+                     kImmPda[i],
+                     {},
+                     {}});
   }
   ExperimentResult result;
   const auto runs = run_all(cases, options, workers, result);
@@ -122,8 +126,8 @@ ExperimentResult run_hpmht_table_3(const ExperimentOptions& options, Workers& wo
                                         {7, {100, 3.8}, {100, 7.2}, {100, 2.5}, {100, 7.2}},
                                         {3, {100, 3.7}, {60, 10.2}, {100, 3.5}, {60, 9.9}}}};
   HPmhtConfig keep = h_pmht();
-  keep.threshold = "keep";  // m1
-  keep.sensor_area = 1e12;  // the whole frame, as printed
+  keep.threshold = CellThreshold::keep;  // m1
+  keep.sensor_area = 1e12;               // the whole frame, as printed
   std::vector<Case> cases;
   for (const Line& line : kLines) {
     for (const double scale : {0.9, 1.1}) {
@@ -137,7 +141,8 @@ ExperimentResult run_hpmht_table_3(const ExperimentOptions& options, Workers& wo
       cases.push_back({title("h-pmht", s) + at + ", at rest first", s,
                        runner(s, keep, AircraftStart::one_scan),
                        low ? line.h_pmht_low : line.h_pmht_high});
-      cases.push_back({title("imm-pda-ai", s) + at, s, runner(s, imm_pda_ai("displayed", scale)),
+      cases.push_back({title("imm-pda-ai", s) + at, s,
+                       runner(s, imm_pda_ai(UnitThreshold::displayed, scale)),
                        low ? line.imm_pda_low : line.imm_pda_high});
     }
   }

@@ -24,7 +24,8 @@ constexpr std::nullopt_t kNone = std::nullopt;
 /// A line of the table: how points come, and how they are followed.
 struct Line {
   std::string name;
-  const char *motion, *association;
+  const char* motion;
+  PmhtAssociation association;
   double variance, percent;  ///< of the points: noise besides rounding [px^2]; clutter
   Errors paper{};
   Errors attained{};           ///< by a right implementation
@@ -36,7 +37,8 @@ struct Line {
 /// the tolerance is that of rounding; else it is 3 standard errors of a difference of two means,
 /// and the share of lost targets may be 2 standard errors above.
 std::vector<Line> lines() {
-  const char *two = "ca+singer", *mixture = "mixture", *own = "per-model";
+  const char* two = "ca+singer";
+  constexpr PmhtAssociation mixture = PmhtAssociation::mixture, own = PmhtAssociation::per_model;
   const Errors quiet{1.8523, 3.3542, 3.2662, 3.0113, 3.0710, 3.1088};
   const Errors clutter{2.6126, kNone, 3.7474, 5.2833, 3.3174, 3.7897};
   return {

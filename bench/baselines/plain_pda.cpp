@@ -55,7 +55,7 @@ void PlainPda::step(std::span<const PointMeasurement> points) {
 void PlainPda::update(Target& target, const std::vector<PointMeasurement>& gated,
                       double threshold) const {
   const MatrixXd noise = config_.measurement_variance * MatrixXd::Identity(2, 2);
-  const AmplitudeModel model = amplitude_model(config_.amplitude);
+  const AmplitudeModel model = config_.amplitude;
   const double miss = 1 - config_.detection * (1 - std::exp(-config_.gate / 2));
   VectorXd likelihood(static_cast<Index>(target.bank.modes.size()));
   MatrixXd beta(likelihood.size(), static_cast<Index>(gated.size()) + 1);

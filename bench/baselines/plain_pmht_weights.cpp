@@ -36,7 +36,7 @@ MatrixXd PlainWeights::densities(std::size_t model, double variance) const {
 
 MatrixXd PlainWeights::of(std::size_t model, const PmhtConfig& config) const {
   MatrixXd density;
-  if (config.association == "mixture") {
+  if (config.association == PmhtAssociation::mixture) {
     density = MatrixXd::Zero(gated.rows(), gated.cols());
     for (std::size_t m = 0; m < positions.size(); ++m) {
       density += probability.col(static_cast<Index>(m)).asDiagonal() *

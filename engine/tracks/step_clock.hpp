@@ -8,6 +8,9 @@
 
 namespace glint {
 
+/// The unit of time of a tracker's settings.
+enum class TimeUnit { frames, seconds };
+
 /// When a step happens.
 struct StepTime {
   std::int64_t frame = 0;

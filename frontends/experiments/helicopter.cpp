@@ -34,7 +34,7 @@ FramesConfig frames_config() {
   return config;
 }
 
-HPmhtConfig tracker_config(const std::string& intensity) {
+HPmhtConfig tracker_config(CellIntensity intensity) {
   HPmhtConfig config;
   config.intensity = intensity;
   config.estimate_extent = true, config.extent = 16;
@@ -47,7 +47,7 @@ HPmhtConfig tracker_config(const std::string& intensity) {
 }  // namespace
 
 AircraftClip follow_aircraft(const std::string& clip, const std::vector<TruthPoint>& truth,
-                             const std::string& intensity) {
+                             CellIntensity intensity) {
   const Box box = box_about(truth);
   const Device device = Device::tbb(1);
   auto tracker = std::make_unique<HPmht>(tracker_config(intensity), device, 1);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "glint/engine/scenario/truth.hpp"
+#include "glint/engine/trackers/h_pmht/h_pmht_config.hpp"
 
 namespace glint {
 
@@ -16,6 +17,6 @@ struct AircraftClip {
 /// The 200x200 px about the middle of the aircraft's way; `intensity` is HPmhtConfig's. One thread.
 /// Throws as open_source() does.
 AircraftClip follow_aircraft(const std::string& clip, const std::vector<TruthPoint>& truth,
-                             const std::string& intensity);
+                             CellIntensity intensity);
 
 }  // namespace glint

@@ -5,10 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include "glint/engine/trackers/registry.hpp"
-#include "glint/experiments/monte_carlo.hpp"
 #include "glint/engine/profiles.hpp"
 #include "glint/engine/settings.hpp"
+#include "glint/engine/trackers/registry.hpp"
+#include "glint/experiments/monte_carlo.hpp"
 #include "glint/frontends/experiments/clip_run.hpp"
 #include "glint/frontends/experiments/helicopter.hpp"
 #include "glint/frontends/experiments/recorded.hpp"
@@ -149,10 +149,11 @@ void add_noise_rows(const char* profile, std::uint64_t seed, Workers& workers,
   }
 }
 
-void add_aircraft_rows(const ClipInput& clip, const std::string& intensity, double most,
+void add_aircraft_rows(const ClipInput& clip, CellIntensity intensity, double most,
                        ExperimentResult& result) {
   const AircraftClip score = follow_aircraft(clip.frames, clip.truth, intensity);
-  const std::string name = "V_HELICOPTER_013, h-pmht, " + intensity;
+  const std::string name = std::string("V_HELICOPTER_013, h-pmht, ") +
+                           (intensity == CellIntensity::rpim ? "rpim" : "rpim-normalised");
   ExperimentRow hit = value_row(name, "hit on target [%]", {score.hit});
   ExperimentRow deviation = value_row(name, "deviation [px]", {score.deviation});
   hit.band = Band{100, {}}, deviation.band = Band{{}, most};
@@ -180,8 +181,8 @@ ExperimentResult run_real_video(const ExperimentOptions& options, Workers& worke
   ExperimentResult result;
   for (std::size_t i = 0; i < kCases.size(); ++i) add_rows(kCases[i], runs[i], result);
   for (const char* profile : {"P", "L"}) add_noise_rows(profile, options.seed, workers, result);
-  add_aircraft_rows(aircraft, "rpim", 4, result);
-  add_aircraft_rows(aircraft, "rpim-normalised", 3, result);
+  add_aircraft_rows(aircraft, CellIntensity::rpim, 4, result);
+  add_aircraft_rows(aircraft, CellIntensity::rpim_normalised, 3, result);
   return result;
 }
 

@@ -31,7 +31,7 @@ std::shared_ptr<WhitenProblem> problem(int width, int height, const Whiten::Args
   return p;
 }
 
-void add_whiten(Trials& trials, int width, int height, const Whiten::Args& base = {},
+void add_whiten(Trials& trials, int width, int height, const Whiten::Args& base,
                 std::uint32_t masked = 0, bool structured = false) {
   const auto p = problem(width, height, base, masked, structured);
   trials.push_back(std::make_unique<PreparationTrial>(
@@ -88,6 +88,8 @@ void add_spread(Trials& trials, int width, int height, bool background, std::uin
 void add_whiten_trials(Trials& trials) {
   Whiten::Args base;
   base.sigma = 1.5;
+  base.ring_outer = 15, base.ring_inner = 5, base.ring_clip = 10;
+  base.clip_low = -3, base.clip_high = 8;
   for (const auto& [width, height] :
        {std::pair{0, 0}, {1, 1}, {7, 5}, {33, 63}, {65, 64}, {64, 65}, {1025, 9}}) {
     add_whiten(trials, width, height, base);

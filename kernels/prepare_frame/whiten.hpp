@@ -64,13 +64,13 @@ struct Whiten {
   static constexpr int kMaxRing = 31;
   struct Args {
     FrameView image, background;
-    FrameView structure;    ///< empty for none
-    double sigma = 1;       ///< > 0 [grey levels]
-    int ring_outer = 15;    ///< half width [px], at most kMaxRing; 0 for no ring
-    int ring_inner = 5;     ///< half width [px], < ring_outer
-    double ring_clip = 10;  ///< [sigma]
+    FrameView structure;   ///< empty for none
+    double sigma = 1;      ///< > 0 [grey levels]
+    int ring_outer = 0;    ///< half width [px], at most kMaxRing; 0 for no ring
+    int ring_inner = 0;    ///< half width [px], < ring_outer
+    double ring_clip = 0;  ///< needed with a ring [sigma]
     Polarity polarity = Polarity::bright;
-    double clip_low = -3, clip_high = 8;
+    double clip_low = 0, clip_high = 0;  ///< needed
     ImageView<float> whitened;
     int noise_step = 1;      ///< S is kept at the pixels (i step, j step); NaN where masked
     ImageView<float> noise;  ///< empty, or ceil(width / step) x ceil(height / step)

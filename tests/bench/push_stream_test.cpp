@@ -49,7 +49,7 @@ struct Taken {
       EXPECT_EQ(result->time, static_cast<double>(result->frame) / kRate);
       last = result->frame;
       ++frames;
-      points += static_cast<std::int64_t>(result->tracks[0].size());
+      points += static_cast<std::int64_t>(result->tracks.size());
     }
   }
   std::int64_t frames = 0, points = 0, last = -1;

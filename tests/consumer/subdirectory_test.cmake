@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DSOURCE=... -DWORK=... -DCXX=... -DFRAMES_PROGRAM=... -P subdirectory_test.cmake
+# cmake -DSOURCE=... -DWORK=... -DCXX=... -DFRAMES_PROGRAM=... [-DLINK=ON] -P subdirectory_test.cmake
 # README's project with Glint fetched as a part of itself, in place of find_package: FetchContent is
-# add_subdirectory on a folder that is there. The library is built without optimisation, to be quick.
+# add_subdirectory on a folder that is there. By each compiler there is and under flags of the program's
+# own the program is compiled; with LINK, by CXX, the library is built too, without optimisation, and the
+# program run.
 include(${SOURCE}/readme.cmake)
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -15,13 +17,29 @@ file(REMOVE_RECURSE ${WORK})
 get_filename_component(glint ${SOURCE}/../.. ABSOLUTE)
 write_readme_project(${WORK}/readme "find_package[^\n]*"
   "include(FetchContent)\nFetchContent_Declare(glint SOURCE_DIR ${glint})\nFetchContent_MakeAvailable(glint)")
-run(${FRAMES_PROGRAM} ${WORK}/frames.raw)
-find_program(ninja ninja)
-if(ninja)
-  set(generator -G Ninja)
+find_program(ninja ninja REQUIRED)
+find_program(clang clang++)
+
+# configured(COMPILER FLAGS BUILD)
+function(configured compiler flags build)
+  run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/readme -B ${build} -DCMAKE_CXX_COMPILER=${compiler}
+    -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${flags}")
+endfunction()
+
+foreach(compiler ${CXX} ${clang})
+  foreach(flags "" -march=native)
+    get_filename_component(name ${compiler} NAME)
+    set(build ${WORK}/${name}${flags})
+    configured(${compiler} "${flags}" ${build})
+    run(${ninja} -C ${build} CMakeFiles/track.dir/main.cpp.o)
+    message(STATUS "README as a subdirectory by ${name} ${flags}: compiled")
+  endforeach()
+endforeach()
+
+if(LINK)
+  configured(${CXX} -O0 ${WORK}/linked)
+  run(${ninja} -C ${WORK}/linked track)
+  run(${FRAMES_PROGRAM} ${WORK}/frames.raw)
+  run_readme(${WORK}/linked ${WORK}/frames.raw tracks)
+  message(STATUS "README as a subdirectory:\n${tracks}")
 endif()
-run(${CMAKE_COMMAND} ${generator} -S ${WORK}/readme -B ${WORK}/build -DCMAKE_CXX_COMPILER=${CXX}
-  -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=-O0 ${FLAGS}")
-run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2 --target track)
-run_readme(${WORK}/build ${WORK}/frames.raw tracks)
-message(STATUS "README as a subdirectory:\n${tracks}")

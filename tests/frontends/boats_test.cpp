@@ -29,7 +29,7 @@ BoatRecord two_boats(int scans) {
 
 ImmJpdaConfig config(bool initiate) {
   ImmJpdaConfig c;
-  c.clock = "seconds", c.measurement_variance = 25, c.clutter_density = 5e-6;
+  c.clock = TimeUnit::seconds, c.measurement_variance = 25, c.clutter_density = 5e-6;
   c.position_sd = 8, c.speed_max = 15, c.separation = 10;
   c.initiate = initiate;
   c.life.confirm_existence = 0;

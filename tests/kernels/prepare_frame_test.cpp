@@ -158,6 +158,8 @@ struct WhitenScene {
       : image(width, height), background(width, height), z(width, height), noise(width, height) {
     args.image = image.view();
     args.background = background.view();
+    args.ring_outer = 15, args.ring_inner = 5, args.ring_clip = 10;
+    args.clip_low = -3, args.clip_high = 8;
     args.whitened = z.view();
     args.noise = noise.view();
   }

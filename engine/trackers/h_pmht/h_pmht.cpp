@@ -54,7 +54,7 @@ void HPmht::restored() {
 }
 
 void HPmht::step(const Scan& scan, TrackLog& log) {
-  const Frame& frame = config_.intensity == "rpim" ? scan.raw : scan.whitened;
+  const Frame& frame = config_.intensity == CellIntensity::rpim ? scan.raw : scan.whitened;
   if (frame.width() == 0) return;
   advance(scan, frame);
   batch_.run(scans_, targets_);
@@ -94,12 +94,13 @@ void HPmht::advance(const Scan& scan, const Frame& frame) {
 }
 
 CellRule HPmht::rule_of(const Frame& frame) {
-  if (config_.intensity == "whitened") {
+  if (config_.intensity == CellIntensity::whitened) {
     return {.threshold = static_cast<float>(config_.noise_threshold), .subtract = true};
   }
   const double level =
       config_.threshold_scale * intensity_levels(frame.view(), quantile_workspace_).displayed();
-  return {.threshold = static_cast<float>(level), .subtract = config_.threshold == "subtract"};
+  return {.threshold = static_cast<float>(level),
+          .subtract = config_.threshold == CellThreshold::subtract};
 }
 
 BatchTarget HPmht::target_at(const Start& at, std::size_t first, double proportion) const {

@@ -4,13 +4,17 @@
 namespace glint {
 
 void describe(FieldList& f, HPmhtConfig& c) {
-  f("intensity", c.intensity, {"whitened", "rpim", "rpim-normalised"},
+  f("intensity", c.intensity,
+    {{"whitened", CellIntensity::whitened},
+     {"rpim", CellIntensity::rpim},
+     {"rpim-normalised", CellIntensity::rpim_normalised}},
     "what cells show: whitened pixels above noise_threshold; the frame as delivered above I_Th, "
     "which asks for frames.reciprocal; or the same of whitened pixels, which other dark objects "
     "do not disturb");
   f("noise_threshold", c.noise_threshold, 0, 100, "sigma",
     "taken off whitened pixels; what is below shows nothing");
-  f("threshold", c.threshold, {"subtract", "keep"},
+  f("threshold", c.threshold,
+    {{"subtract", CellThreshold::subtract}, {"keep", CellThreshold::keep}},
     "whether I_Th is taken off rpim pixels (m2, better in clutter) or not (m1, for clean sky)");
   f("threshold_scale", c.threshold_scale, 0, 100, "", "multiple of I_Th, P-HPMHT (23)");
   f("psf_sigma", c.psf_sigma, 0.1, 2.66, "px", "width of the point spread");

@@ -6,13 +6,18 @@
 
 namespace glint {
 
+/// What cells show: whitened pixels, the frame as delivered (RPIM), or RPIM of whitened pixels.
+enum class CellIntensity { whitened, rpim, rpim_normalised };
+/// Whether I_Th is taken off the pixels above it, m2 of P-HPMHT table 3, or not, m1.
+enum class CellThreshold { subtract, keep };
+
 /// Settings of `h-pmht`. The unit of time is the frame interval, whatever the frame rate.
 struct HPmhtConfig {
   // What the cells show.
-  std::string intensity = "whitened";
-  double noise_threshold = 1;          ///< [sigma]
-  std::string threshold = "subtract";  ///< m2; "keep" is m1
-  double threshold_scale = 1;          ///< multiple of I_Th, P-HPMHT (23)
+  CellIntensity intensity = CellIntensity::whitened;
+  double noise_threshold = 1;  ///< [sigma]
+  CellThreshold threshold = CellThreshold::subtract;
+  double threshold_scale = 1;  ///< multiple of I_Th, P-HPMHT (23)
   // What a target looks like.
   double psf_sigma = 1.0;                    ///< [px]
   double snr = 12;                           ///< [dB]

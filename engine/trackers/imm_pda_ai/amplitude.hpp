@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <tuple>
 
 namespace glint {
@@ -11,11 +10,6 @@ namespace glint {
 /// Densities of the amplitude [sigma] of points that exceed a threshold. They tell targets and
 /// clutter apart by the log ratio of the two densities, both given that the threshold is exceeded.
 enum class AmplitudeModel { none, rayleigh, gaussian };
-
-inline AmplitudeModel amplitude_model(const std::string& name) {
-  if (name == "rayleigh") return AmplitudeModel::rayleigh;
-  return name == "gaussian" ? AmplitudeModel::gaussian : AmplitudeModel::none;
-}
 
 /// ln of the probability that a standard normal exceeds x.
 inline double log_normal_tail(double x) {

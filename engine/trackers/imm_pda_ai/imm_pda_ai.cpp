@@ -14,7 +14,7 @@ namespace {
 
 double variance_of(const ImmPdaAiConfig& config) {
   if (config.measurement_variance > 0) return config.measurement_variance;
-  return config.points == "units" ? 16 : 1;  // P-HPMHT (21)
+  return config.points == PointOrigin::units ? 16 : 1;  // P-HPMHT (21)
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ ImmPdaAi::ImmPdaAi(const ImmPdaAiConfig& config, const Device& device, std::uint
     : config_(valid(config)),
       device_(device),
       noise_(variance_of(config) * Eigen::Matrix2d::Identity()),
-      amplitude_model_(amplitude_model(config.amplitude)),
+      amplitude_model_(config.amplitude),
       miss_(1 - config.detection * (1 - std::exp(-config.gate / 2))) {
   check(config.life);
 }

@@ -18,14 +18,19 @@
 
 namespace glint {
 
+/// Whose points: those of the scan, or bright 5x5 units of the frame as delivered.
+enum class PointOrigin { scan, units };
+/// What a unit must exceed: the frame's mean, P-HPMHT (20), or I_Th, (23).
+enum class UnitThreshold { mean, displayed };
+
 /// Settings of `imm-pda-ai`. The unit of time is the frame interval, whatever the frame rate.
 struct ImmPdaAiConfig {
   // Where points come from.
-  std::string points = "scan";         ///< scan, units
-  std::string threshold = "mean";      ///< units: mean (20), displayed (23)
-  double threshold_scale = 1.1;        ///< units: multiple of it
-  double measurement_variance = 0;     ///< [px^2]; 0 = auto, 16 for units, 1 for points
-  std::string amplitude = "rayleigh";  ///< rayleigh, gaussian, none
+  PointOrigin points = PointOrigin::scan;
+  UnitThreshold threshold = UnitThreshold::mean;
+  double threshold_scale = 1.1;     ///< units: multiple of it
+  double measurement_variance = 0;  ///< [px^2]; 0 = auto, 16 for units, 1 for points
+  AmplitudeModel amplitude = AmplitudeModel::rayleigh;
   // How a target moves.
   double noise_slow = 0.02, noise_fast = 1;  ///< [px^2/frame^3]
   double stay = 0.9;                         ///< probability of no change of model
@@ -49,7 +54,9 @@ class ImmPdaAi : public TrackerOf<ImmPdaAi> {
  public:
   /// Throws ConfigError for settings that do not fit together.
   ImmPdaAi(const ImmPdaAiConfig& config, const Device& device, std::uint64_t seed);
-  Feed feed() const override { return config_.points == "units" ? Feed::frames : Feed::both; }
+  Feed feed() const override {
+    return config_.points == PointOrigin::units ? Feed::frames : Feed::both;
+  }
   /// A confirmed track that is at (x, y) [px] with velocity (vx, vy) [px/frame] at the next scan;
   /// the scans after that move it.
   void start(double x, double y, double vx, double vy) { known_.push_back({x, vx, y, vy}); }

@@ -4,15 +4,19 @@
 namespace glint {
 
 void describe(FieldList& f, ImmPdaAiConfig& c) {
-  f("points", c.points, {"scan", "units"},
+  f("points", c.points, {{"scan", PointOrigin::scan}, {"units", PointOrigin::units}},
     "points of the front end (section points), or bright 5x5 units of the frame as delivered, the "
     "paper's, which asks for frames.reciprocal if targets are dark");
-  f("threshold", c.threshold, {"mean", "displayed"},
+  f("threshold", c.threshold,
+    {{"mean", UnitThreshold::mean}, {"displayed", UnitThreshold::displayed}},
     "what a unit must exceed: the frame's mean (P-HPMHT (20)) or I_Th (23)");
   f("threshold_scale", c.threshold_scale, 0, 100, "", "multiple of that threshold");
   f.automatic("measurement_variance", c.measurement_variance, 0, 1e18, "px^2",
               "of a point's position along each axis; auto is 16 for units, 1 for points");
-  f("amplitude", c.amplitude, {"rayleigh", "gaussian", "none"},
+  f("amplitude", c.amplitude,
+    {{"rayleigh", AmplitudeModel::rayleigh},
+     {"gaussian", AmplitudeModel::gaussian},
+     {"none", AmplitudeModel::none}},
     "what a point's amplitude says of its origin");
   f("noise_slow", c.noise_slow, 0, 1e18, "px^2/frame^3",
     "power spectral density of the acceleration, of the first model");

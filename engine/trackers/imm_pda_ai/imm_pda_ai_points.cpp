@@ -10,7 +10,7 @@ namespace glint {
 
 void ImmPdaAi::measure(const Scan& scan) {
   points_.clear(), points_.area.see(scan);
-  if (config_.points == "units") return measure_units(scan.raw.view());
+  if (config_.points == PointOrigin::units) return measure_units(scan.raw.view());
   amplitude_threshold_ = std::numeric_limits<double>::infinity();
   for (const PointMeasurement& point : scan.points) {
     // Points whose amplitude is unknown are all alike, and bright enough to start a track.
@@ -34,7 +34,8 @@ void ImmPdaAi::measure_units(FrameView frame) {
   device_.run<FindPoints>(args);
   const IntensityLevels levels = intensity_levels(frame, levels_);
   const double threshold =
-      config_.threshold_scale * (config_.threshold == "mean" ? levels.mean : levels.displayed());
+      config_.threshold_scale *
+      (config_.threshold == UnitThreshold::mean ? levels.mean : levels.displayed());
   levels_.clear();
   for (const Point& unit : units_) levels_.push_back(unit.amplitude);
   const RobustMoments clutter = robust_moments(levels_);

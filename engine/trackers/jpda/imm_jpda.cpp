@@ -53,7 +53,8 @@ void ImmJpda::TrackSet::remove(std::size_t i) {
 void ImmJpda::step(const Scan& scan, TrackLog& log) {
   if (!clock_.started()) log.set_mode_names(imm_jpda_modes(config_));
   const StepTime at = clock_.tick(scan);
-  elapsed_ = config_.clock == "frames" ? at.step : scan.time - std::exchange(last_time_, scan.time);
+  elapsed_ = config_.clock == TimeUnit::frames ? at.step
+                                               : scan.time - std::exchange(last_time_, scan.time);
   read_points(scan);
   offered_.clear();
   for (std::uint32_t j = 0; j < points_.positions.size(); ++j) offered_.push_back(j);
@@ -194,7 +195,7 @@ void ImmJpda::move_confirmed() {
 }
 
 void ImmJpda::report(TrackSet& set, const StepTime& at, TrackLog& log) {
-  const double rate = config_.clock == "frames" ? at.velocity_scale : 1;
+  const double rate = config_.clock == TimeUnit::frames ? at.velocity_scale : 1;
   for (std::size_t i = 0; i < set.tracks.size(); ++i) {
     glint::report(set.tracks[i], set.window.estimate(i).probability(), at, rate, log);
   }

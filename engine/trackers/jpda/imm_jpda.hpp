@@ -25,8 +25,8 @@ struct ImmJpdaConfig : PointTrackConfig, PointSensorConfig, ImmWindowConfig {
   double noise_agile = 0.5;        ///< of the second ncv, or jumps of that of the first wpa
   double noise_jump = 4;           ///< of the second wpa
   double stay = 0.95;              ///< probability of no change of model
-  std::string clock = "frames";    ///< frames, seconds
-  double clutter_density = 0;      ///< of false points [1/px^2]; 0 = auto
+  TimeUnit clock = TimeUnit::frames;
+  double clutter_density = 0;               ///< of false points [1/px^2]; 0 = auto
   double position_sd = 0, velocity_sd = 1;  ///< of a known start [px], [px/time]; 0 = as a point's
 
   ImmJpdaConfig() {

@@ -12,7 +12,7 @@ void describe_motion(FieldList& f, ImmJpdaConfig& c) {
     "the same of a second ncv; of the first wpa, what its acceleration changes by in a step");
   f("noise_jump", c.noise_jump, 0, 1e9, "px/time^2", "of the second wpa");
   f("stay", c.stay, 0, 1, "", "probability that a target keeps its model from scan to scan");
-  f("clock", c.clock, {"frames", "seconds"},
+  f("clock", c.clock, {{"frames", TimeUnit::frames}, {"seconds", TimeUnit::seconds}},
     "unit of time of every setting: seconds for time stamps that are not regular");
 }
 

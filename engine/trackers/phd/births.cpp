@@ -20,11 +20,6 @@ namespace {
 
 constexpr std::size_t kBirthTile = 512;
 
-BirthProposal proposal_of(const std::string& name) {
-  if (name == "uniform") return BirthProposal::uniform;
-  return name == "matched-filter" ? BirthProposal::matched_filter : BirthProposal::two_frame;
-}
-
 /// Pixels above the threshold, as flat indices.
 void cells_above(FrameView z, double threshold, std::vector<std::uint32_t>& cells) {
   cells.clear();
@@ -54,7 +49,7 @@ double window_sum(const CellWorkspace& cells, int width, int height, int half_wi
 Births::Births(const BirthConfig& config, const MotionConfig& motion, const Device& device,
                std::uint64_t seed)
     : config_(config),
-      proposal_(proposal_of(config.birth)),
+      proposal_(config.birth),
       speed_max_(motion.speed_max),
       birth_mode_(motion.bank().birth),
       device_(device),

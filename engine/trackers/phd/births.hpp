@@ -28,10 +28,10 @@ enum class BirthProposal {
 
 /// Where targets come from.
 struct BirthConfig {
-  std::string birth = "two-frame";  ///< the proposal
-  int birth_particles = 4000;       ///< new-born particles a frame, J
-  double birth_mass = 0.05;         ///< expected new-born targets a frame, gamma
-  double birth_threshold = 1.5;     ///< of the uniform proposal [noise sigmas]
+  BirthProposal birth = BirthProposal::two_frame;
+  int birth_particles = 4000;    ///< new-born particles a frame, J
+  double birth_mass = 0.05;      ///< expected new-born targets a frame, gamma
+  double birth_threshold = 1.5;  ///< of the uniform proposal [noise sigmas]
 };
 void describe(FieldList& f, BirthConfig& c);
 

@@ -95,12 +95,12 @@ void PhdFilter::update(const Frame& z, std::int64_t frame) {
   const bool odds = weight_sum_ == WeightSum::odds;
   log_ratio_.resize(p.size());
   updated_.resize(p.size());
-  if (odds || config_.resample_on == "likelihood") likelihood_.resize(p.size());
+  if (odds || config_.resample_on == ResampleOn::likelihood) likelihood_.resize(p.size());
   weigh_particles({bank_, appearance_, device_, seed_}, z, frame, p, log_ratio_.values());
   device_.run<CellWeights>({.width = z.width(),
                             .height = z.height(),
                             .half_width = appearance_.spread().half_width,
-                            .psi = config_.psi == "cell" ? Psi::cell : Psi::window,
+                            .psi = config_.psi,
                             .clutter = static_cast<float>(config_.clutter),
                             .x = p.x,
                             .y = p.y,
@@ -159,7 +159,7 @@ void PhdFilter::resample(std::int64_t frame) {
     device_.run<Resample>(
         {.weights = likelihood_.empty() ? std::span<const float>(p.weight) : likelihood_.values(),
          .ancestors = ancestors_.values(),
-         .method = config_.resampling == "residual" ? Resampling::residual : Resampling::systematic,
+         .method = config_.resampling,
          .key = random_key(seed_, index_of(frame), Purpose::resample),
          .moved = moves,
          .workspace = &draws_});

@@ -19,14 +19,18 @@
 
 namespace glint {
 
+/// What particles are redrawn by: their weight, or their likelihood alone, P-PHD (24).
+enum class ResampleOn { weight, likelihood };
+
 /// Settings of a particle PHD filter.
 struct PhdFilterConfig : AppearanceConfig, MotionConfig, BirthConfig {
   // How many particles stand for them.
   int particles_per_target = 2000;
   int particles_max = 2000000;
-  std::string resampling = "systematic", resample_on = "weight";
+  Resampling resampling = Resampling::systematic;
+  ResampleOn resample_on = ResampleOn::weight;
   // How their pixels are shared.
-  std::string psi = "window";
+  Psi psi = Psi::window;
   double clutter = 1;
 };
 void describe(FieldList& f, PhdFilterConfig& c);

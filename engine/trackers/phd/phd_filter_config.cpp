@@ -14,7 +14,10 @@ void describe(FieldList& f, MotionConfig& c) {
 }
 
 void describe(FieldList& f, BirthConfig& c) {
-  f("birth", c.birth, {"two-frame", "matched-filter", "uniform"},
+  f("birth", c.birth,
+    {{"two-frame", BirthProposal::two_frame},
+     {"matched-filter", BirthProposal::matched_filter},
+     {"uniform", BirthProposal::uniform}},
     "where new particles are drawn; two-frame equals ten times the particles");
   f("birth_particles", c.birth_particles, 1, 10000000, "", "new particles a frame");
   f("birth_mass", c.birth_mass, 0, 1000, "", "expected new targets a frame");
@@ -29,10 +32,13 @@ void describe(FieldList& f, PhdFilterConfig& c) {
   f("particles_per_target", c.particles_per_target, 10, 10000000, "",
     "particles kept for each expected target");
   f("particles_max", c.particles_max, 10, 100000000, "", "particles kept in all");
-  f("resampling", c.resampling, {"systematic", "residual"}, "how particles are redrawn");
-  f("resample_on", c.resample_on, {"weight", "likelihood"},
+  f("resampling", c.resampling,
+    {{"systematic", Resampling::systematic}, {"residual", Resampling::residual}},
+    "how particles are redrawn");
+  f("resample_on", c.resample_on,
+    {{"weight", ResampleOn::weight}, {"likelihood", ResampleOn::likelihood}},
     "what particles are redrawn by; likelihood leaves out how pixels are shared among targets");
-  f("psi", c.psi, {"window", "cell"},
+  f("psi", c.psi, {{"window", Psi::window}, {"cell", Psi::cell}},
     "what the normaliser sums over; cell is the paper's and counts a target across cells twice");
   f("clutter", c.clutter, 0, 1000, "",
     "lambda of the normaliser in likelihood-ratio units; the paper's 1 - Phi(Th) inflates noise");

@@ -35,7 +35,7 @@ void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
   std::span<const Peak> found;
   std::span<const std::uint32_t> members;
   std::vector<Peak> classes;
-  if (config_.states == "kmeans") {
+  if (config_.states == StateExtraction::kmeans) {
     const auto frame = static_cast<std::uint64_t>(scan.frame);
     classes = kmeans_states(particles, random_key(seed_, frame, Purpose::kmeans), kmeans_members_);
     found = classes, members = kmeans_members_;

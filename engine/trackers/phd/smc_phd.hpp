@@ -16,10 +16,13 @@
 
 namespace glint {
 
+/// How the particles become targets: peaks, or the k-means of P-PHD section 3.1.
+enum class StateExtraction { peaks, kmeans };
+
 /// Settings of `smc-phd`.
 struct SmcPhdConfig : PhdFilterConfig {
   // How particles become targets.
-  std::string states = "peaks";
+  StateExtraction states = StateExtraction::peaks;
   double existence = 0.5;       ///< least mass of a target
   double cluster_radius = 0;    ///< half side of a target's box [px]; 0 = auto, half the window
   double noise_adaptation = 1;  ///< Qmax / Qmin; 1 = fixed
@@ -33,7 +36,7 @@ struct SmcPhdImprovedConfig : SmcPhdConfig {
   SmcPhdImprovedConfig() {
     process_noise = 0.001;
     noise_adaptation = 50;
-    resample_on = "likelihood";
+    resample_on = ResampleOn::likelihood;
   }
 };
 

@@ -5,7 +5,7 @@ namespace glint {
 
 void describe(FieldList& f, SmcPhdConfig& c) {
   describe(f, static_cast<PhdFilterConfig&>(c));
-  f("states", c.states, {"peaks", "kmeans"},
+  f("states", c.states, {{"peaks", StateExtraction::peaks}, {"kmeans", StateExtraction::kmeans}},
     "how particles become targets; kmeans is the paper's and fails as soon as n is off");
   f("existence", c.existence, 0.01, 1, "", "least mass of a reported target");
   f.automatic("cluster_radius", c.cluster_radius, 0, 20, "px",

@@ -9,7 +9,7 @@ namespace glint {
 struct MmpfPmhtConfig : PmhtConfig {
   MmpfPmhtConfig() {
     stay = 0.998;
-    association = "mixture";
+    association = PmhtAssociation::mixture;
     iterations = 20, tolerance = 1e-2;
   }
   int particles = 200;  ///< of each model

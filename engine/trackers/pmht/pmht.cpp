@@ -31,7 +31,7 @@ PmhtTracker<Config, Bank>::PmhtTracker(const Config& config, const Device&, std:
       seed_(seed),
       settings_{.origins = {.detection = config.detection},
                 .variance = config.measurement_variance,
-                .mixture = config.association == "mixture",
+                .mixture = config.association == PmhtAssociation::mixture,
                 .iterations = config.iterations,
                 .tolerance = config.tolerance} {
   check(config);
@@ -52,7 +52,8 @@ template <class Config, class Bank>
 void PmhtTracker<Config, Bank>::step(const Scan& scan, TrackLog& log) {
   if (!clock_.started()) log.set_mode_names(pmht_mode_names(config_));
   const StepTime at = clock_.tick(scan);
-  elapsed_ = config_.clock == "frames" ? at.step : scan.time - std::exchange(last_time_, scan.time);
+  elapsed_ = config_.clock == TimeUnit::frames ? at.step
+                                               : scan.time - std::exchange(last_time_, scan.time);
   take_points(scan);
   predict();            // 7
   associate(true, at);  // 2-6
@@ -185,7 +186,7 @@ void PmhtTracker<Config, Bank>::start_tracks(const StepTime& at) {
 
 template <class Config, class Bank>
 void PmhtTracker<Config, Bank>::report(const StepTime& at, TrackLog& log) {
-  const double rate = config_.clock == "frames" ? at.velocity_scale : 1;
+  const double rate = config_.clock == TimeUnit::frames ? at.velocity_scale : 1;
   for (Track& track : tracks_) {
     glint::report(track, track.bank.probability(), at, rate, log);
   }

@@ -16,23 +16,27 @@
 
 namespace glint {
 
+/// Who competes for points: a model with the same model of other targets, as printed, or the models
+/// of a target together with those of others.
+enum class PmhtAssociation { per_model, mixture };
+
 /// Settings of `pmht-imm`. The unit of time is that of `clock`.
 struct PmhtConfig : PointTrackConfig {
   // How a target moves.
   std::string motion = "ca+singer";
-  double cv_noise = 0.02;        ///< [px^2/time^3]
-  double ca_noise = 0.01;        ///< [px^2/time^4]
-  double singer_fading = 0.2;    ///< [1/time]
-  double singer_variance = 2;    ///< [px^2/time^4]
-  double noise_ratio = 100;      ///< second to first of two alike models
-  double stay = 0.999;           ///< probability of no change of model
-  std::string clock = "frames";  ///< frames, seconds
+  double cv_noise = 0.02;      ///< [px^2/time^3]
+  double ca_noise = 0.01;      ///< [px^2/time^4]
+  double singer_fading = 0.2;  ///< [1/time]
+  double singer_variance = 2;  ///< [px^2/time^4]
+  double noise_ratio = 100;    ///< second to first of two alike models
+  double stay = 0.999;         ///< probability of no change of model
+  TimeUnit clock = TimeUnit::frames;
   // Which points are whose.
   double measurement_variance = 9;  ///< [px^2]
   double gate = 14;                 ///< half side of the square [px]
   double detection = 0.95;
-  double clutter_density = 0;             ///< [1/px^2]; 0 = auto
-  std::string association = "per-model";  ///< per-model, mixture
+  double clutter_density = 0;  ///< [1/px^2]; 0 = auto
+  PmhtAssociation association = PmhtAssociation::per_model;
   int iterations = 50;
   double tolerance = 1e-3;  ///< [px]
 

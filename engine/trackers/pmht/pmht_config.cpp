@@ -21,7 +21,7 @@ void describe_motion(FieldList& f, PmhtConfig& c) {
   f("noise_ratio", c.noise_ratio, 1, 1e6, "",
     "of two models of one kind the second has so many times the noise");
   f("stay", c.stay, 0, 1, "", "probability that a target keeps its model from scan to scan");
-  f("clock", c.clock, {"frames", "seconds"},
+  f("clock", c.clock, {{"frames", TimeUnit::frames}, {"seconds", TimeUnit::seconds}},
     "unit of time of every setting: seconds for time stamps that are not regular");
 }
 
@@ -33,7 +33,8 @@ void describe_association(FieldList& f, PmhtConfig& c) {
   f.automatic("clutter_density", c.clutter_density, 0, 1e12, "1/px^2",
               "density of false points; auto is the number of points beyond one a confirmed track, "
               "over the frame's area");
-  f("association", c.association, {"per-model", "mixture"},
+  f("association", c.association,
+    {{"per-model", PmhtAssociation::per_model}, {"mixture", PmhtAssociation::mixture}},
     "a model competes for points with the same model of other targets, or the models of a target "
     "together with those of others");
   f("iterations", c.iterations, 1, 10000, "", "most of expectation maximisation a scan");

@@ -31,9 +31,8 @@ int expect_in_bands(const ExperimentResult& result) {
     if (!r.band) continue;
     ++banded;
     const double slack = 3 * r.spread / std::sqrt(kRuns);
-    const Band widened{r.band->low ? std::optional(*r.band->low - slack) : std::nullopt,
-                       r.band->high ? std::optional(*r.band->high + slack) : std::nullopt};
-    EXPECT_TRUE(widened.holds(r.ours)) << r.name << ", " << r.metric << ": " << r.ours;
+    EXPECT_TRUE(r.band->widened(slack).holds(r.ours))
+        << r.name << ", " << r.metric << ": " << r.ours;
   }
   return banded;
 }

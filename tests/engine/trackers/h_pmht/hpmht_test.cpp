@@ -203,9 +203,9 @@ Frame dark_aircraft(int k) {
 }
 
 TEST(HPmht, FollowsTheCentroidOfAnExtendedTargetInReciprocalIntensity) {
-  for (const std::string threshold : {"keep", "subtract"}) {
+  for (const CellThreshold threshold : {CellThreshold::keep, CellThreshold::subtract}) {
     HPmhtConfig config;
-    config.intensity = "rpim", config.threshold = threshold, config.initiate = false;
+    config.intensity = CellIntensity::rpim, config.threshold = threshold, config.initiate = false;
     config.estimate_extent = true, config.extent = 16;
     config.batch = 5, config.process_noise = 1;
     HPmht tracker(config, Device::tbb(1), 1);
@@ -216,9 +216,9 @@ TEST(HPmht, FollowsTheCentroidOfAnExtendedTargetInReciprocalIntensity) {
       scan.frame = k, scan.time = k, scan.raw = dark_aircraft(k);
       tracker.step(scan, log);
     }
-    ASSERT_EQ(log.at(11).size(), 1u) << threshold;
-    EXPECT_NEAR(log.at(11)[0].x, 20 + 5 * 11, 0.6) << threshold;
-    EXPECT_NEAR(log.at(11)[0].y, 40, 0.6) << threshold;
+    ASSERT_EQ(log.at(11).size(), 1u) << static_cast<int>(threshold);
+    EXPECT_NEAR(log.at(11)[0].x, 20 + 5 * 11, 0.6) << static_cast<int>(threshold);
+    EXPECT_NEAR(log.at(11)[0].y, 40, 0.6) << static_cast<int>(threshold);
   }
 }
 

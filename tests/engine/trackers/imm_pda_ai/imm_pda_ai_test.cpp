@@ -34,7 +34,7 @@ struct Tracking {
 /// Both models alike, and every point in the gate the target's own: a Kalman filter.
 ImmPdaAiConfig kalman_config() {
   ImmPdaAiConfig c;
-  c.amplitude = "none";
+  c.amplitude = AmplitudeModel::none;
   c.noise_slow = c.noise_fast = 0.3;
   c.detection = 0.9999, c.gate = 1000, c.clutter_density = 1e-12;
   c.initiate = false;
@@ -82,7 +82,7 @@ TEST(ImmPdaAi, WithoutClutterIsAKalmanFilter) {
 }
 
 // Two points, one pixel to either side of where the target must be.
-double shift_by_amplitudes(const std::string& model, float left, float right) {
+double shift_by_amplitudes(AmplitudeModel model, float left, float right) {
   ImmPdaAiConfig config = kalman_config();
   config.amplitude = model;
   Tracking run(config);
@@ -94,15 +94,17 @@ double shift_by_amplitudes(const std::string& model, float left, float right) {
 
 TEST(ImmPdaAi, AmplitudesWeighTwoPointsByTheirRatio) {
   const double p = 1 + 4 + 0.3 / 3, gain = p / (p + 1);
-  for (const std::string model : {"rayleigh", "gaussian"}) {
+  for (const AmplitudeModel model : {AmplitudeModel::rayleigh, AmplitudeModel::gaussian}) {
     const TargetAmplitude target(3);
-    const auto ratio = [&](double a) { return target.log_ratio(amplitude_model(model), a, 2.5); };
+    const auto ratio = [&](double a) { return target.log_ratio(model, a, 2.5); };
     const double difference = std::tanh((ratio(3) - ratio(2.5)) / 2);  // of the two weights
     EXPECT_GT(difference, 0.1);
-    EXPECT_NEAR(shift_by_amplitudes(model, 2.5, 3), gain * difference, 1e-6) << model;
-    EXPECT_NEAR(shift_by_amplitudes(model, 3, 2.5), -gain * difference, 1e-6) << model;
+    EXPECT_NEAR(shift_by_amplitudes(model, 2.5, 3), gain * difference, 1e-6)
+        << static_cast<int>(model);
+    EXPECT_NEAR(shift_by_amplitudes(model, 3, 2.5), -gain * difference, 1e-6)
+        << static_cast<int>(model);
   }
-  EXPECT_NEAR(shift_by_amplitudes("none", 2.5, 3), 0, 1e-6);
+  EXPECT_NEAR(shift_by_amplitudes(AmplitudeModel::none, 2.5, 3), 0, 1e-6);
 }
 
 TEST(ImmPdaAi, APointBeyondTheGateDoesNotMoveATrack) {
@@ -197,7 +199,7 @@ TEST(ImmPdaAi, OfTwoBrightPointsOfOneTargetTheBrighterStarts) {
 /// first two are from their targets.
 Tracking crossing(double separation) {
   ImmPdaAiConfig config;
-  config.amplitude = "none";
+  config.amplitude = AmplitudeModel::none;
   config.separation = separation;
   Tracking run(config);
   run.tracker.start(20, 35, 2, 1);
@@ -235,7 +237,7 @@ TEST(ImmPdaAi, OfTwoThatComeCloseTheYoungerEnds) {
 // The younger goes on if it alone is confirmed.
 TEST(ImmPdaAi, OfTwoThatComeCloseTheConfirmedGoesOn) {
   ImmPdaAiConfig config = life_config();
-  config.amplitude = "none", config.life.confirm_hits = 4;
+  config.amplitude = AmplitudeModel::none, config.life.confirm_hits = 4;
   Tracking run(config);
   run.step({{50, 50, kBright}});
   run.tracker.start(51, 50, 0, 0);
@@ -261,7 +263,8 @@ TEST(ImmPdaAi, KnownTargetsTakeTheAmplitudeOfTheirPoint) {
 TEST(ImmPdaAi, ClutterIsNoDenserThanOnePointAPixel) {
   const auto text = [](double density) {
     ImmPdaAiConfig config;
-    config.clutter_density = density, config.amplitude = "none", config.initiate = false;
+    config.clutter_density = density, config.amplitude = AmplitudeModel::none,
+    config.initiate = false;
     ImmPdaAi tracker(config, Device::serial(), 1);
     TrackLog log;
     tracker.start(0.5, 0.5, 0, 0);
@@ -298,7 +301,7 @@ std::vector<TrackPoint> tracks_of_units(const ImmPdaAiConfig& config, const Fram
 // P-HPMHT (20): the mean is 101.1, and 1.1 times that 111.2.
 TEST(ImmPdaAi, UnitsAbove11TimesTheMeanAreItsPoints) {
   ImmPdaAiConfig config;
-  config.points = "units";
+  config.points = PointOrigin::units;
   const Frame frame = units_frame({200, 110});
   const auto tracks = tracks_of_units(config, frame);
   ASSERT_EQ(tracks.size(), 1u);
@@ -316,14 +319,15 @@ TEST(ImmPdaAi, UnitsAbove11TimesTheMeanAreItsPoints) {
 // P-HPMHT (23): I_Th is the mean and a tenth of the 99.9 % quantile, 101.1 + 20.
 TEST(ImmPdaAi, UnitsAboveTheDisplayedLevelAreItsPoints) {
   ImmPdaAiConfig config;
-  config.points = "units", config.threshold = "displayed", config.threshold_scale = 1;
+  config.points = PointOrigin::units, config.threshold = UnitThreshold::displayed,
+  config.threshold_scale = 1;
   EXPECT_EQ(tracks_of_units(config, units_frame({200, 110})).size(), 1u);
   EXPECT_EQ(tracks_of_units(config, units_frame({200, 123})).size(), 2u);
   EXPECT_EQ(tracks_of_units(config, units_frame({200, 121})).size(), 1u);
 }
 
 TEST(ImmPdaAi, TakesScansWithoutPointsOrFrames) {
-  for (const char* points : {"scan", "units"}) {
+  for (const PointOrigin points : {PointOrigin::scan, PointOrigin::units}) {
     ImmPdaAiConfig config;
     config.points = points;
     ImmPdaAi tracker(config, Device::serial(), 1);

@@ -141,7 +141,7 @@ TEST_P(ImmJpdaOf, MissingScansCoast) {
 
 TEST_P(ImmJpdaOf, TimeStampsNeedNotBeRegular) {
   ImmJpdaConfig config = windowed(known_targets());
-  config.clock = "seconds";
+  config.clock = TimeUnit::seconds;
   Player player(config);
   player.tracker.start(0, 0, 3, 0);
   double time = 0;

@@ -19,7 +19,7 @@ inline constexpr double kMass =
     1e-6;                            // so little that it does not fill the normaliser of P-PHD (14)
 inline constexpr double kSpeed = 2;  // px/frame
 
-inline BirthConfig config_of(const char* proposal) {
+inline BirthConfig config_of(BirthProposal proposal) {
   BirthConfig c;
   c.birth = proposal, c.birth_particles = kCount, c.birth_mass = kMass, c.birth_threshold = 1;
   return c;

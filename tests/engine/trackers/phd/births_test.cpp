@@ -21,7 +21,7 @@ Frame one_bright_pixel(int x, int y, float value = 5) {
 }
 
 TEST(UniformBirths, LieAroundThePixelsAboveTheThreshold) {
-  Nursery nursery(config_of("uniform"), dim());
+  Nursery nursery(config_of(BirthProposal::uniform), dim());
   const Particles p = nursery.draw(one_bright_pixel(7, 9));
   ASSERT_EQ(p.size(), kCount);
   const auto [left, right] = std::ranges::minmax(p.x);
@@ -36,7 +36,7 @@ TEST(UniformBirths, LieAroundThePixelsAboveTheThreshold) {
 }
 
 TEST(UniformBirths, AreNoneWithoutSuchAPixelOrWhereItIsMasked) {
-  Nursery nursery(config_of("uniform"), dim());
+  Nursery nursery(config_of(BirthProposal::uniform), dim());
   EXPECT_EQ(nursery.draw(one_bright_pixel(7, 9, 0.9F)).size(), 0U);
   nursery.mask.set(std::vector<Box>{{7, 9, 8, 10}}, kSide, kSide);
   EXPECT_EQ(nursery.draw(one_bright_pixel(7, 9)).size(), 0U);
@@ -46,7 +46,7 @@ TEST(UniformBirths, AreNoneWithoutSuchAPixelOrWhereItIsMasked) {
 TEST(UniformBirths, FillTheRangesOfVelocityIntensityAndModels) {
   AppearanceConfig appearance = dim();
   appearance.snr_low = 6, appearance.snr_high = 26;
-  Nursery nursery(config_of("uniform"), appearance);
+  Nursery nursery(config_of(BirthProposal::uniform), appearance);
   const Particles p = nursery.draw(one_bright_pixel(7, 9));
   for (const auto* v : {&p.vx, &p.vy}) {
     const auto [low, high] = std::ranges::minmax(*v);
@@ -69,7 +69,7 @@ TEST(UniformBirths, FillTheRangesOfVelocityIntensityAndModels) {
 // Cells are drawn in proportion to their score s, so the weight is gamma / J mean(s) / s.
 TEST(MatchedFilterBirths, AreWeightedAgainstTheirProposal) {
   constexpr double kRatio = 20;
-  Nursery nursery(config_of("matched-filter"), exact_appearance(kRatio));
+  Nursery nursery(config_of(BirthProposal::matched_filter), exact_appearance(kRatio));
   const Frame z = image_of(kRatio, {{20, 15}});
   const auto scores = scores_of(z.view(), intensity_of_ratio(kRatio));
   const Particles p = nursery.draw(z);
@@ -85,7 +85,7 @@ TEST(MatchedFilterBirths, AreWeightedAgainstTheirProposal) {
 }
 
 TEST(MatchedFilterBirths, AreNotInTheMask) {
-  Nursery nursery(config_of("matched-filter"), dim());
+  Nursery nursery(config_of(BirthProposal::matched_filter), dim());
   nursery.mask.set(std::vector<Box>{{0, 0, kSide, 20}}, kSide, kSide);
   for (const float y : nursery.draw(empty_frame()).y) ASSERT_GT(y, 19.49F);
 }

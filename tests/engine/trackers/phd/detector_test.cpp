@@ -19,7 +19,8 @@ DetectorConfig config_of() {
   static_cast<AppearanceConfig&>(c) = exact_appearance(1 + 1e-6);
   static_cast<MotionConfig&>(c) = exact_motion();
   c.speed_max = 0.01;
-  c.birth = "uniform", c.birth_particles = 3000, c.birth_mass = 3, c.birth_threshold = 1;
+  c.birth = BirthProposal::uniform, c.birth_particles = 3000, c.birth_mass = 3,
+  c.birth_threshold = 1;
   return c;
 }
 

@@ -24,7 +24,8 @@ PhdFilterConfig config_of(double ratio = 1 + 1e-6) {
   static_cast<AppearanceConfig&>(c) = exact_appearance(ratio);
   static_cast<MotionConfig&>(c) = exact_motion();
   c.speed_max = 0.01;
-  c.birth = "uniform", c.birth_particles = kCount, c.birth_mass = kMass, c.birth_threshold = 1;
+  c.birth = BirthProposal::uniform, c.birth_particles = kCount, c.birth_mass = kMass,
+  c.birth_threshold = 1;
   c.particles_per_target = 500;
   return c;
 }
@@ -74,7 +75,7 @@ TEST(PhdFilter, DividesByTheClutter) {
 // As printed in P-PHD (15)-(16): each of the nine pixels shares its own ninth of gamma alone.
 TEST(PhdFilter, OfCellsSharesEachPixelByItself) {
   PhdFilterConfig config = config_of();
-  config.psi = "cell";
+  config.psi = Psi::cell;
   Filter f(config);
   f.update(bright_at({{20, 15}}));
   EXPECT_NEAR(f.phd.expected(), 9 * (1.0 / 9) / (1 + 1.0 / 9), 5e-3);
@@ -159,7 +160,7 @@ std::vector<std::uint32_t> members_on(const Particles& p, bool left) {
 }
 
 TEST(PhdFilter, RemovesParticlesWithTheirShareOfTheTargets) {
-  for (const char* resample_on : {"weight", "likelihood"}) {
+  for (const ResampleOn resample_on : {ResampleOn::weight, ResampleOn::likelihood}) {
     PhdFilterConfig config = config_of();
     config.resample_on = resample_on;
     Filter f(config);
@@ -171,7 +172,7 @@ TEST(PhdFilter, RemovesParticlesWithTheirShareOfTheTargets) {
     const double left = f.phd.expected();
     f.phd.resample(f.frame);
     EXPECT_NEAR(f.sum_of_weights(), left, 1e-5);
-    for (const float x : f.phd.particles().x) ASSERT_GT(x, 20) << resample_on;
+    for (const float x : f.phd.particles().x) ASSERT_GT(x, 20) << static_cast<int>(resample_on);
   }
 }
 
@@ -223,7 +224,7 @@ TEST(PhdFilter, OfOddsStaysInTheRangeOfFloats) {
 }
 
 /// The share of the particles at the left of two pixels, the right one of which shows a target.
-double share_of_the_left(const char* resample_on) {
+double share_of_the_left(ResampleOn resample_on) {
   PhdFilterConfig config = config_of(100);
   config.birth_mass = 2;
   config.resample_on = resample_on;
@@ -243,8 +244,8 @@ double share_of_the_left(const char* resample_on) {
 
 // P-PHD (24) leaves out the normaliser, which lets a dim target have as much as its n.
 TEST(PhdFilter, ResamplesByWeightOrByLikelihood) {
-  EXPECT_GT(share_of_the_left("weight"), 5 * share_of_the_left("likelihood"));
-  EXPECT_GT(share_of_the_left("likelihood"), 0);
+  EXPECT_GT(share_of_the_left(ResampleOn::weight), 5 * share_of_the_left(ResampleOn::likelihood));
+  EXPECT_GT(share_of_the_left(ResampleOn::likelihood), 0);
 }
 
 TEST(PhdFilter, StartsAgainWithAnotherAppearance) {

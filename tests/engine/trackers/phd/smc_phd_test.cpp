@@ -144,9 +144,9 @@ TEST(SmcPhd, MakesTargetsByKmeansOrByPeaks) {
   SmcPhdConfig config = paper_config(12);
   config.existence = 0.01;
   const Scene noise = scene_of({}, 15);
-  config.states = "kmeans";
+  config.states = StateExtraction::kmeans;
   EXPECT_TRUE(track(noise, config).log.online().empty());
-  config.states = "peaks";
+  config.states = StateExtraction::peaks;
   EXPECT_FALSE(track(noise, config).log.online().empty());
 }
 

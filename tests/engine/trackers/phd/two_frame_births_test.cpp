@@ -15,7 +15,7 @@ namespace {
 using namespace test;
 
 TEST(TwoFrameBirths, NeedAFrameBeforeOfTheSameSize) {
-  Nursery nursery(config_of("two-frame"), dim());
+  Nursery nursery(config_of(BirthProposal::two_frame), dim());
   EXPECT_EQ(nursery.draw(Frame(Image<float>(30, 30))).size(), 0U);
   EXPECT_EQ(nursery.draw(empty_frame()).size(), 0U);
   EXPECT_EQ(nursery.draw(empty_frame()).size(), kCount);
@@ -51,7 +51,7 @@ double flat_weight(const Particles& p, std::size_t i, const Before& from, double
 
 TEST(TwoFrameBirths, InFlatFramesWeighTheirReachOverTheRangeOfVelocities) {
   for (const double step : {1.0, 3.0}) {
-    Nursery nursery(config_of("two-frame"), dim());
+    Nursery nursery(config_of(BirthProposal::two_frame), dim());
     nursery.draw(empty_frame());
     const Particles p = nursery.draw(empty_frame(), step);
     ASSERT_EQ(p.size(), kCount);
@@ -71,7 +71,7 @@ TEST(TwoFrameBirths, InFlatFramesWeighTheirReachOverTheRangeOfVelocities) {
 
 // What living targets explain of a cell in the frame before, B, leaves 1 / (clutter + B) of it.
 TEST(TwoFrameBirths, LeaveToLivingTargetsWhatTheyExplain) {
-  Nursery nursery(config_of("two-frame"), dim());
+  Nursery nursery(config_of(BirthProposal::two_frame), dim());
   nursery.clutter = 2;
   // Two pixels held particles, of sums 3 and 5.
   nursery.previous.runs.cell = {cell_at(20, 15, kSide), cell_at(22, 16, kSide)};
@@ -124,7 +124,7 @@ double likelihood_ratio(FrameView z, double intensity, double x, double y) {
 // gamma / J * mean(s_{k-1}) / s_{k-1}(a) * l_{k-1}(x_{k-1}) * S_b / (2 v_max T)^2 / s_k(b)
 TEST(TwoFrameBirths, AreWeightedAgainstTheirProposalAndByTheFrameBefore) {
   constexpr double kRatio = 20;
-  Nursery nursery(config_of("two-frame"), exact_appearance(kRatio));
+  Nursery nursery(config_of(BirthProposal::two_frame), exact_appearance(kRatio));
   const double intensity = intensity_of_ratio(kRatio);
   const Frame first = image_of(kRatio, {{20, 15}}), second = image_of(kRatio, {{21, 14}});
   const auto before_scores = scores_of(first.view(), intensity);
@@ -149,7 +149,7 @@ TEST(TwoFrameBirths, AreWeightedAgainstTheirProposalAndByTheFrameBefore) {
 }
 
 TEST(TwoFrameBirths, AreNotInTheMask) {
-  Nursery nursery(config_of("two-frame"), dim());
+  Nursery nursery(config_of(BirthProposal::two_frame), dim());
   nursery.draw(empty_frame());
   nursery.mask.set(std::vector<Box>{{0, 0, kSide, 20}}, kSide, kSide);
   const Particles p = nursery.draw(empty_frame());
@@ -163,7 +163,7 @@ TEST(TwoFrameBirths, AreNotInTheMask) {
 }
 
 TEST(TwoFrameBirths, ForgetTheFrameBeforeWithAnotherAppearance) {
-  Births births(config_of("two-frame"), motion_of(), Device::serial(), 1);
+  Births births(config_of(BirthProposal::two_frame), motion_of(), Device::serial(), 1);
   births.set_appearance(ready(dim()));
   const CellWorkspace none;
   const PixelMask mask;

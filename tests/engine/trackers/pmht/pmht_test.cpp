@@ -100,7 +100,7 @@ TEST(Pmht, MissingScansAndScansWithoutPointsCoast) {
 
 TEST(Pmht, TimeStampsMayBeIrregular) {
   PmhtConfig config = told();
-  config.clock = "seconds";
+  config.clock = TimeUnit::seconds;
   PointRun run(config);
   run.tracker.start(20, 50, 30, 10);
   double time = 0;
