@@ -80,7 +80,7 @@ class Engine {
   /// false if one was dropped for it. Throws std::logic_error after finish(), std::invalid_argument
   /// as checked() does for pixels, and what ended the engine if something did.
   bool push(const RawPixels& pixels, double time);
-  /// The same without a copy: `frame.owner` is let go of, on any thread, once the pixels were read.
+  /// The same without a copy: `frame.owner` is released, on any thread, once the pixels were read.
   /// Frames that hold points, alone or beside pixels, come in here too.
   bool push(SourceFrame frame);
 
@@ -99,7 +99,8 @@ class Engine {
   ResultRange results();
   /// Waits until every frame that was pushed is tracked. Throws what ended the engine.
   void drain();
-  /// Drains, then lets the trackers say what they still hold; the logs are whole after that.
+  /// Drains, then lets the trackers report what they hold back, such as the last window of a batch;
+  /// the logs are complete after that.
   /// Throws what ended the engine. A second call does nothing.
   void finish();
 
@@ -140,8 +141,8 @@ class Engine {
   std::unique_ptr<Source> source_;
   std::unique_ptr<Sink> sink_;
   mutable std::mutex mutex_;
-  // One for each kind of waiting, told after the mutex is let go of where a frame passes: whoever
-  // is woken for nothing takes a core from the kernels.
+  // One for each kind of waiting, notified after the mutex is released where a frame passes: a
+  // thread that wakes for nothing takes a core from the kernels.
   std::condition_variable room_;             // push() waits for it
   std::condition_variable frames_;           // thread_ waits for them
   std::condition_variable settled_or_idle_;  // drain(), finish() and checkpoint() wait for it

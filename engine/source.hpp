@@ -15,11 +15,11 @@ namespace glint {
 /// A raw frame that owns its pixels, the points of a scan, or both.
 struct SourceFrame {
   RawPixels pixels;                   ///< points into `owner`; without width if there is no frame
-  std::shared_ptr<const void> owner;  ///< keeps the pixels alive; let go of on any thread
+  std::shared_ptr<const void> owner;  ///< keeps the pixels alive; released on any thread
   double time = 0;                    ///< [s]
   /// Given by sources that know the points; without them they are looked for in the pixels.
   std::optional<std::vector<PointMeasurement>> points;
-  double sensor_x = 0, sensor_y = 0;  ///< where that which saw the points stands [px]
+  double sensor_x = 0, sensor_y = 0;  ///< position of the sensor of range and azimuth [px]
   bool looked = true;  ///< false: it did not look; trackers of points alone pass the frame over
   std::int64_t skipped = 0;  ///< frames lost since the one before
 };

@@ -162,7 +162,7 @@ GLINT_API glint_status glint_next(glint_engine *engine, double timeout, glint_re
                                   glint_track *tracks, size_t capacity);
 /* Waits until every frame that was pushed is done. */
 GLINT_API glint_status glint_drain(glint_engine *engine);
-/* Drains, and lets the trackers say what they still hold. No frame can be pushed after that. */
+/* Drains, and lets the trackers report what they hold back. No frame can be pushed after that. */
 GLINT_API glint_status glint_finish(glint_engine *engine);
 /* After glint_finish(): all tracks of all frames as they were revised later, by tracker, frame and
  * track. `count` holds the room in `tracks`, `track_size` bytes each, and gets the number. */

@@ -25,7 +25,7 @@ class Stream {
   /// copied but where they are not aligned. Throws UsageError for a picture whose time is not
   /// known, and what ended the engine.
   EngineResult track(GstVideoFrame& picture, GstClockTime timestamp);
-  /// Lets the trackers say what they still hold. Throws what ended the engine.
+  /// Lets the trackers report what they hold back. Throws what ended the engine.
   const Scheduler& finish();
 
   const GstVideoInfo& format() const { return *format_; }
