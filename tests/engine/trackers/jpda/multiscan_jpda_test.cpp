@@ -170,13 +170,14 @@ TEST(MultiscanJpda, TargetsBehindARemovedOneStayBound) {
   const std::vector<double> weights{-2, 0};
   MultiscanJpda jpda(exactly());
   jpda.add(), jpda.add(), jpda.add();
-  jpda.run(std::vector<TargetScan>{{far, weights}, {shared, weights}, {shared, weights}}, {});
+  const std::vector<TargetScan> seen{{far, weights}, {shared, weights}, {shared, weights}};
+  jpda.run(seen, {});
   jpda.advance(together(jpda), 2);
   jpda.remove(0);
   for (const std::size_t clusters : {1U, 1U, 2U}) {
     const std::vector<double> first(jpda.hypotheses(0)), second(jpda.hypotheses(1));
-    EXPECT_EQ(jpda.run(std::vector<TargetScan>{{none, first}, {none, second}}, {}).clusters,
-              clusters);
+    const std::vector<TargetScan> unseen{{none, first}, {none, second}};
+    EXPECT_EQ(jpda.run(unseen, {}).clusters, clusters);
     jpda.advance(together(jpda), 2);
   }
 }
