@@ -63,31 +63,6 @@ class Engine::Results : public Sink {
   Engine& engine_;
 };
 
-namespace {
-
-/// The pixels row by row without gaps, in memory of their own.
-SourceFrame copy_of(const RawPixels& given, double time) {
-  const RawPixels pixels = checked(given);
-  SourceFrame frame;
-  frame.time = time;
-  std::visit(
-      [&]<class T>(const T* data) {
-        const std::ptrdiff_t row = pixels.row();
-        auto copy = std::make_shared_for_overwrite<T[]>(
-            static_cast<std::size_t>(row * std::ptrdiff_t{pixels.height}));
-        for (int y = 0; y < pixels.height; ++y) {
-          std::copy_n(data + y * pixels.pitch, row, copy.get() + y * row);
-        }
-        frame.pixels = {static_cast<const T*>(copy.get()), pixels.width, pixels.height,
-                        pixels.channels, row};
-        frame.owner = std::move(copy);
-      },
-      pixels.data);
-  return frame;
-}
-
-}  // namespace
-
 Engine::Engine(std::string_view trackers, const Settings& settings, EngineSettings of_engine)
     : Engine(scheduler_of(trackers, settings), std::move(of_engine)) {}
 
@@ -105,6 +80,7 @@ Engine::~Engine() {
   {
     const std::scoped_lock lock(mutex_);
     abandoned_ = true;
+    stop_.request_stop();
   }
   close();
   if (thread_.joinable()) thread_.join();
@@ -121,7 +97,7 @@ void Engine::work() {
   };
   attempt([&] {
     while (wait_for_frames()) {
-      scheduler_.advance(*source_);
+      scheduler_.advance(*source_, stop_.get_token());
       const std::scoped_lock lock(mutex_);
       holds_ = scheduler_.holds_frames();
     }
@@ -147,7 +123,12 @@ bool Engine::wait_for_frames() {
   return (!waiting_.empty() || hurried()) && !abandoned_;
 }
 
-bool Engine::push(const RawPixels& pixels, double time) { return push(copy_of(pixels, time)); }
+bool Engine::push(const RawPixels& pixels, double time) {
+  SourceFrame frame;
+  frame.pixels = pixels, frame.time = time;
+  own_pixels(frame);
+  return push(std::move(frame));
+}
 
 bool Engine::push(SourceFrame frame) {
   if (!frame.points || frame.pixels.width > 0) frame.pixels = checked(frame.pixels);
@@ -188,16 +169,16 @@ std::optional<EngineResult> Engine::poll(std::chrono::duration<double> timeout,
   constexpr std::chrono::duration<double> kLongest(1e9);  // a longer one overflows the clock
   if (timeout.count() > 0) {
     settled_or_idle_.wait_for(lock, std::min(timeout, kLongest),
-                              [&] { return !results_.empty() || ended_; });
+                              [&] { return !results_.empty() || ended_ || error_; });
   }
-  if (results_.empty() && ended_) rethrow();
+  if (results_.empty()) rethrow();
   if (results_.empty() || (wants && !wants(results_.front()))) return std::nullopt;
   return take_result();
 }
 
 bool Engine::more() const {
   const std::scoped_lock lock(mutex_);
-  return !results_.empty() || !ended_;
+  return !results_.empty() || !(ended_ || error_);
 }
 
 /// Of the frames pushed by now; nothing once all of theirs were given.
@@ -213,13 +194,17 @@ std::optional<EngineResult> Engine::next_result() {
 
 std::string Engine::checkpoint() {
   std::unique_lock lock(mutex_);
-  ++checkpoints_, ++hurries_;
-  frames_.notify_one();
-  settled_or_idle_.wait(lock, [&] { return ended_ || (idle_ && waiting_.empty() && !holds_); });
-  --checkpoints_, --hurries_;
+  ++checkpoints_;
+  settled_or_idle_.wait(lock, [&] { return ended_ || (idle_ && waiting_.empty()); });
+  --checkpoints_;
   room_.notify_all();  // whoever is woken waits for the lock
   rethrow();
   if (closed_) throw std::logic_error("a finished engine has no checkpoint: take it before");
+  if (holds_) {
+    throw std::logic_error(
+        "frames are held until the background is learned (frames.background_prime): take the "
+        "checkpoint when the first result came");
+  }
   ByteWriter to = begin_checkpoint(scheduler_.label("Engine"));
   scheduler_.put_state(to);
   put_bytes(to, pushed_), put_bytes(to, dropped_), put_bytes(to, results_);

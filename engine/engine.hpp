@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -97,7 +98,9 @@ class Engine {
   /// engine.results()). After finish() it ends with the last frame's. Iterating throws what ended
   /// the engine once the results before it were given. Nothing with on_result.
   ResultRange results();
-  /// Waits until every frame that was pushed is tracked. Throws what ended the engine.
+  /// Waits until every frame that was pushed is tracked. Throws what ended the engine. With
+  /// frames.background_prime it ends the holding of frames, as results() does: the background is
+  /// then learned from those that came.
   void drain();
   /// Drains, then lets the trackers report what they hold back, such as the last window of a batch;
   /// the logs are complete after that.
@@ -106,7 +109,8 @@ class Engine {
 
   /// Waits until every frame that was pushed is tracked, then gives everything that later frames
   /// depend on, the logs and the results that wait for poll() included; a push() meanwhile waits.
-  /// Throws std::logic_error after finish(), and what ended the engine.
+  /// Throws std::logic_error after finish() and while frames are held for frames.background_prime,
+  /// and what ended the engine.
   std::string checkpoint();
   /// Before the first push(): goes on from the checkpoint() of an engine whose trackers, settings
   /// (Scheduler::set_settings()) and kind of device are the same, as if nothing had come between.
@@ -157,7 +161,8 @@ class Engine {
   bool idle_ = false;   // nothing touches scheduler_ until a frame waits
   bool closed_ = false, abandoned_ = false, ended_ = false;
   std::exception_ptr error_;
-  std::thread thread_;  // the last: it uses all of the above
+  std::stop_source stop_;  // of the frames that are held: requested when abandoned
+  std::thread thread_;     // the last: it uses all of the above
 };
 
 /// What Engine::results() gives: a range to be gone through once.

@@ -173,13 +173,25 @@ std::string settings_of_results(std::span<const ConfigSection> sections, const R
   return text;
 }
 
+namespace {
+
+Device device_of(const RunConfig& run) {
+  try {
+    return Device::named(run.device, run.threads);
+  } catch (const std::invalid_argument& e) {
+    throw ConfigError(std::string("run.device: ") + e.what());
+  }
+}
+
+}  // namespace
+
 Scheduler pushed_frames_scheduler(std::span<const ConfigSection> sections) {
   const RunConfig run = section_named(sections, "run").as<RunConfig>();
   refuse_what_reads_files(run);
   if (trackers_of(run).empty()) {
     throw ConfigError("no tracker is named; name one, for example mm-phd");
   }
-  const Device device = Device::named(run.device, run.threads);
+  const Device device = device_of(run);
   const FramesConfig frames = section_named(sections, "frames").as<FramesConfig>();
   Scheduler scheduler(device, FramePreparer(frames, device),
                       section_named(sections, "points").as<PointsConfig>());
@@ -193,6 +205,9 @@ Scheduler pushed_frames_scheduler(std::span<const ConfigSection> sections) {
 Scheduler scheduler_of(std::string_view trackers, const Settings& settings) {
   std::vector<ConfigSection> sections = all_sections();
   apply_value("run.tracker", std::string(trackers), sections);
+  if (std::ranges::any_of(settings, names_trackers)) {
+    throw ConfigError("trackers are named by the first argument; leave the setting tracker out");
+  }
   apply_settings(settings, sections);
   return pushed_frames_scheduler(sections);
 }

@@ -48,6 +48,7 @@ struct Scheduler::State {
       : device(on), preparer(std::move(with)), finder(points, on) {}
 
   void read_next(Source& source, std::optional<SourceFrame>& frame);
+  void hold_frames(Source& source);
   void learn_held();
   void release() { primed = std::min(primed, held.size()); }
   Token* read(Source& source, const std::stop_token& stop);
@@ -72,28 +73,48 @@ struct Scheduler::State {
   std::array<Token, kFramesInFlight> tokens;
   bool started = false, finished = false;
   std::int64_t read_count = 0, next_frame = 0, delivered = 0, kept = 0;
-  std::deque<SourceFrame> held;  // until the background is learned
-  std::size_t primed = 0;        // frames that it is learned from
+  std::deque<SourceFrame> held;   // until the background is learned
+  std::size_t primed = 0;         // frames that it is learned from
+  std::exception_ptr read_error;  // of the source, behind those that are held
   std::atomic<bool> stopping = false;
   std::exception_ptr error;  // of the earliest frame that failed
   std::string settings;
 };
 
+/// Frames to learn the background from, until there are enough or no more; lent pixels are copied,
+/// so that nobody waits for them to be released. What the source throws waits behind them.
+void Scheduler::State::hold_frames(Source& source) {
+  try {
+    while (held.size() < primed) {
+      std::optional<SourceFrame> frame = source.next();
+      if (!frame) return;
+      if (frame->pixels.width > 0) {
+        own_pixels(*frame);
+      } else {
+        release(), ++primed;  // points have no background: this one is the last
+      }
+      held.push_back(std::move(*frame));
+    }
+  } catch (...) {
+    read_error = std::current_exception();
+    release();
+  }
+}
+
 /// The source's next frame, or the first of those that were held; nothing while more are to be
 /// held.
 void Scheduler::State::read_next(Source& source, std::optional<SourceFrame>& frame) {
-  while (held.size() < primed) {
-    frame = source.next();
-    if (!frame) return;
-    held.push_back(std::move(*frame));
-    if (held.back().pixels.width == 0) release();  // points have no background
-  }
+  frame.reset();
+  if (held.size() < primed) hold_frames(source);
+  if (held.size() < primed) return;
   if (primed > 0) learn_held();
-  if (held.empty()) {
-    frame = source.next();
-  } else {
+  if (!held.empty()) {
     frame.emplace(std::move(held.front()));
     held.pop_front();
+  } else if (read_error) {
+    std::rethrow_exception(std::exchange(read_error, {}));
+  } else {
+    frame = source.next();
   }
 }
 
@@ -243,7 +264,7 @@ void Scheduler::prime(std::int64_t frames) {
 
 bool Scheduler::holds_frames() const { return !state_->held.empty(); }
 
-void Scheduler::drop_held() { state_->held.clear(); }
+void Scheduler::drop_held() { state_->held.clear(), state_->primed = 0; }
 
 void Scheduler::release_primed() { state_->release(); }
 
@@ -255,7 +276,7 @@ void Scheduler::advance(Source& source, const std::stop_token& stop) {
 
 void Scheduler::finish() {
   if (std::exchange(state_->finished, true)) return;
-  if (holds_frames()) {
+  if (holds_frames() && !state_->error) {
     release_primed();
     NoMoreFrames end;
     state_->advance(end, {});

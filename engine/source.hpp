@@ -24,6 +24,9 @@ struct SourceFrame {
   std::int64_t skipped = 0;  ///< frames lost since the one before
 };
 
+/// Copies the pixels row by row without gaps, and releases their owner. Throws as checked() does.
+void own_pixels(SourceFrame& frame);
+
 /// Where frames come from.
 class Source {
  public:

@@ -102,7 +102,11 @@ glint_status poll(glint_engine& handle, double timeout, glint_result& given, gli
     return result.tracks <= capacity && (tracks != nullptr || result.tracks == 0);
   };
   const auto taken_out = handle.engine.poll(std::chrono::duration<double>(timeout), fits);
-  if (!any) return handle.engine.more() ? GLINT_NOTHING : GLINT_END;
+  if (!any) {
+    if (handle.engine.more()) return GLINT_NOTHING;
+    handle.engine.poll();  // throws if it has failed since
+    return GLINT_END;
+  }
   std::memcpy(&given, &result, std::min(given.struct_size, sizeof(result)));
   if (result.tracks > capacity) {
     last_error = "the frame has " + std::to_string(result.tracks) +

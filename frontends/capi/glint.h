@@ -75,7 +75,8 @@ typedef struct glint_options {
 } glint_options;
 #define GLINT_OPTIONS_INIT {sizeof(glint_options), NULL, NULL, NULL, 0, GLINT_WAIT}
 
-/* An engine that waits for frames. For a stream without an end set run.keep in `config`: it bounds
+/* An engine that waits for frames. With frames.background_prime = N in `config` the first result comes
+ * once N frames came. For a stream without an end set run.keep in `config`: it bounds
  * what is held for glint_revised(). */
 GLINT_API glint_status glint_create(const glint_options *options, glint_engine **engine);
 /* Frames that still wait are not tracked. NULL is allowed. */

@@ -2,6 +2,7 @@
 #include "glint/frontends/cli/frame_job.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "glint/engine/profiles.hpp"
@@ -109,7 +110,13 @@ int frames_ahead(const FrameJob& job) {
   return job.config<FramesConfig>("frames").background_prime;
 }
 
-bool is_read_once(const FrameJob& job) { return job.inputs.front() == "-"; }
+/// Standard input and pipes by name.
+bool is_read_once(const FrameJob& job) {
+  std::error_code unknown;
+  const std::filesystem::file_status status = std::filesystem::status(job.inputs.front(), unknown);
+  return job.inputs.front() == "-" || std::filesystem::is_fifo(status) ||
+         std::filesystem::is_character_file(status) || std::filesystem::is_socket(status);
+}
 
 FramePreparer make_preparer(const FrameJob& job) {
   FramePreparer preparer(job.config<FramesConfig>("frames"), job.device);

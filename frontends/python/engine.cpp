@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/frontends/python/engine.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <stdexcept>
@@ -91,8 +92,15 @@ std::optional<Result> result_of(const std::optional<EngineResult>& result) {
 }  // namespace
 
 std::optional<Result> PushEngine::poll(double timeout) {
-  return result_of(
-      in_engine([&] { return engine_->poll(std::chrono::duration<double>(timeout)); }));
+  // In slices, so that Ctrl-C is heard.
+  constexpr double kSlice = 0.1;  // [s]
+  for (;;) {
+    const std::chrono::duration<double> slice(std::min(timeout, kSlice));
+    auto result = in_engine([&] { return engine_->poll(slice); });
+    timeout -= kSlice;
+    if (result || timeout <= 0 || !engine_->more()) return result_of(result);
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
 }
 
 std::optional<Result> PushEngine::next() {

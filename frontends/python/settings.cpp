@@ -25,11 +25,11 @@ std::vector<ConfigSection> sections_of(const Request& request) {
   if (request.profile) apply_profile(*request.profile, all);
   parse_toml(request.config_text, "config", all);
   if (request.trackers) apply_value("run.tracker", *request.trackers, all);
-  set_all(request.config, all);
-  if (request.trackers) apply_value("run.tracker", *request.trackers, all);
   if (trackers_of(section_named(all, "run").as<RunConfig>()).empty()) {
     apply_value("run.tracker", std::string("mm-phd"), all);
   }
+  set_all(request.config, all);
+  if (request.trackers) apply_value("run.tracker", *request.trackers, all);
   set_all(request.settings, all);
   return all;
 }

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <future>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "scheduler_fakes.hpp"
@@ -177,13 +179,15 @@ TEST_P(EngineTest, ABackgroundLearnedAheadHoldsFramesUntilItIsKnown) {
   EXPECT_EQ(hurried.poll().value().frame, 0);
 }
 
-TEST(EngineCheckpoint, IsTakenWhileFramesAreHeldAndGoneOnFrom) {
+TEST(EngineCheckpoint, IsRefusedWhileFramesAreHeldAndGoneOnFromAfterwards) {
   const Settings settings{{"background_prime", 4}, {"birth_particles", 200}, {"threads", 2}};
   Engine first("smc-phd", settings), next("smc-phd", settings);
   first.push(Picture(0).raw, 0), first.push(Picture(1).raw, 1);
+  EXPECT_THROW(first.checkpoint(), std::logic_error);
+  for (std::int64_t f = 2; f < 5; ++f) first.push(Picture(f).raw, static_cast<double>(f));
   next.restore(first.checkpoint());
   for (Engine* engine : {&first, &next}) {
-    for (std::int64_t f = 2; f < 8; ++f) engine->push(Picture(f).raw, static_cast<double>(f));
+    for (std::int64_t f = 5; f < 8; ++f) engine->push(Picture(f).raw, static_cast<double>(f));
     engine->finish();
   }
   EXPECT_EQ(next.pushed(), 8);
@@ -287,6 +291,24 @@ TEST_P(EngineTest, MayEndWithFramesInItAndRefusesFramesAfterwards) {
   finished->finish();
   EXPECT_THROW(finished->push(Picture(0).raw, 0), std::logic_error);
   EXPECT_THROW(finished->push(RawPixels{}, 0), std::invalid_argument);
+}
+
+TEST_P(EngineTest, FramesThatAreHeldAreReleasedAtOnceAndDroppedWithTheEngine) {
+  std::atomic<int> tracked = 0;
+  auto picture = std::make_shared<Picture>(0);
+  const std::weak_ptr<Picture> lent = picture;
+  {
+    Scheduler fresh = scheduler_on(device);
+    fresh.prime(50);
+    fresh.add(std::make_unique<FakeTracker>(1, [&](std::int64_t) { ++tracked; }));
+    Engine primed(std::move(fresh));
+    SourceFrame frame;
+    frame.pixels = picture->raw, frame.owner = std::move(picture);
+    primed.push(std::move(frame));
+    for (int i = 0; i < 1000 && !lent.expired(); ++i) std::this_thread::sleep_for(1ms);
+    EXPECT_TRUE(lent.expired()) << "a ring of buffers would wait for it";
+  }
+  EXPECT_EQ(tracked, 0);
 }
 
 TEST_P(EngineTest, APitchOf0IsPackedAndOneBelowTheWidthIsRefused) {

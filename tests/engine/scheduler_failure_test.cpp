@@ -25,6 +25,15 @@ TEST_P(SchedulerFailure, SourceFailureComesOutAfterAllEarlierFrames) {
   EXPECT_EQ(scheduler.logs().at(0)->online().size(), 9u);
 }
 
+TEST_P(SchedulerFailure, SourceFailureComesOutAfterTheFramesHeldForTheBackground) {
+  FakeSource source(kNever, throws_at(9, "clip.mp4: truncated"));
+  scheduler.prime(20);
+  scheduler.add(std::make_unique<FakeTracker>(1));
+  scheduler.add(sink);
+  EXPECT_EQ(error_of(scheduler, source), "clip.mp4: truncated");
+  EXPECT_EQ(sink.frames, first(9));
+}
+
 TEST_P(SchedulerFailure, PreparerFailureComesOutAfterAllEarlierFrames) {
   struct Growing : FakeSource {
     using FakeSource::FakeSource;

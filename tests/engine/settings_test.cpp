@@ -58,6 +58,9 @@ TEST(Settings, WrongOnesAreRefusedWithTheRemedy) {
   EXPECT_EQ(fault_of("mm-phd", {{"trackers.h-pmht.batch", 5}}),
             "trackers.h-pmht.batch has no effect: a run with tracker \"mm-phd\" does not read it; "
             "leave it out");
+  EXPECT_TRUE(fault_of("mm-phd", {{"device", "cuda"}}).starts_with("run.device: "));
+  EXPECT_EQ(fault_of("mm-phd", {{"tracker", "viterbi"}}),
+            "trackers are named by the first argument; leave the setting tracker out");
   EXPECT_EQ(fault_of("", {}), "no tracker is named; name one, for example mm-phd");
   EXPECT_EQ(fault_of("mm-phd", {{"size", "640x512"}}),
             "run.size has no effect on frames that are pushed: a frame says its size itself");

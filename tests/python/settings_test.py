@@ -41,6 +41,8 @@ def test_the_tracker_is_the_given_one_or_the_configs_or_mm_phd():
     assert tracks(config=config) == tracks("viterbi")
     assert tracks("smc-phd", config=config) == tracks("smc-phd")
     assert tracks() == tracks("mm-phd")
+    own = {"trackers": {"mm-phd": {"snr_low": 6}}}
+    assert tracks(config=own) == tracks("mm-phd", snr_low=6)
 
 
 def test_the_default_config_changes_nothing():
