@@ -25,7 +25,7 @@ std::string value_text(const ConfigValue& value) {
                         [](bool b) { return std::string(b ? "true" : "false"); },
                         [](std::int64_t i) { return std::to_string(i); },
                         [](double x) { return number_text(x); },
-                        [](const std::string& s) { return quoted(s); },
+                        [](const std::string& s) { return in_quotes(s); },
                     },
                     value);
 }
@@ -173,16 +173,16 @@ std::string to_toml(const ConfigField& field) {
                         [](const bool* b) { return value_text(*b); },
                         [](const int* i) { return value_text(std::int64_t{*i}); },
                         [&](const double* x) {
-                          if (field.automatic && *x == field.low) return quoted("auto");
+                          if (field.automatic && *x == field.low) return in_quotes("auto");
                           const std::string text = number_text(*x);
                           const bool whole =
                               text.find_first_not_of("-0123456789") == std::string::npos;
                           return whole ? text + ".0" : text;
                         },
-                        [](const std::string* s) { return quoted(*s); },
+                        [](const std::string* s) { return in_quotes(*s); },
                         [&](const ChosenValue& value) {
                           check(field);
-                          return quoted(field.choices.at(*value.index()));
+                          return in_quotes(field.choices.at(*value.index()));
                         },
                     },
                     field.value);

@@ -15,6 +15,6 @@ void append_number(std::string& out, double x);
 /// NaN.
 void append_rounded(std::string& out, double x, int significant, int decimals);
 /// `text` as a TOML basic string, quotes included.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace glint

@@ -129,7 +129,7 @@ std::vector<ConfigSection> sections_with(std::string_view key, std::span<const C
   std::vector<ConfigSection> read = used_sections(all, trackers_of(run));
   if (has_full_key(all, key) && !has_full_key(read, key)) {
     throw ConfigError(std::string(key) + " has no effect: a run with tracker " +
-                      quoted(run.tracker) + " does not read it; leave it out");
+                      in_quotes(run.tracker) + " does not read it; leave it out");
   }
   return read;
 }

@@ -42,8 +42,8 @@ std::vector<std::vector<const Curve*>> tables_of(const ExperimentResult& result)
 std::string row_of(const std::vector<const Curve*>& table, std::size_t frame,
                    const std::vector<std::string>& metrics) {
   const Curve& first = *table.front();
-  std::string row =
-      number_text(first.frame[frame]) + "," + quoted(first.condition) + "," + quoted(first.level);
+  std::string row = number_text(first.frame[frame]) + "," + in_quotes(first.condition) + "," +
+                    in_quotes(first.level);
   for (const std::string& metric : metrics) {
     row += ',';
     for (const Curve* curve : table) {
