@@ -15,9 +15,9 @@
 #include "glint/bench/embed/child.hpp"
 #include "glint/bench/harness.hpp"
 #include "glint/engine/engine.hpp"
-#include "glint/frontends/capi/glint.h"
 #include "glint/engine/run_config.hpp"
 #include "glint/engine/settings.hpp"
+#include "glint/frontends/capi/glint.h"
 #include "glint/frontends/config/toml.hpp"
 
 namespace glint::bench {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// consumer_frames FILE: frames for README's example, 16 bits, 640x512 pixels: a bright target on its way
-// before ripples.
+// consumer_frames FILE: frames for README's example, 16 bits, 640x512 pixels: a bright target on
+// its way before ripples.
 #include <cmath>
 #include <cstdint>
 #include <fstream>

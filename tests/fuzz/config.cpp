@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/frontends/cli/config_file.hpp"
 #include "glint/engine/run_config.hpp"
+#include "glint/frontends/cli/config_file.hpp"
 #include "input_file.hpp"
 #include "refusals.hpp"
 
