@@ -161,7 +161,8 @@ struct Batch {
       for (int k = 0; k < count; ++k) {
         ScriptedTarget target;
         target.death = kScans, target.intensity = intensity;
-        target.path = fly({(k % columns + 0.5) * pitch, (k / columns + 0.5) * pitch});
+        const int column = k % columns, row = k / columns;
+        target.path = fly({(column + 0.5) * pitch, (row + 0.5) * pitch});
         scene.targets.push_back(target);
       }
       frames[t] = render(scene, kEngineSeed, static_cast<int>(t));
@@ -171,8 +172,9 @@ struct Batch {
     for (int k = 0; k < count; ++k) {
       BatchTarget& target = targets.emplace_back();
       target.noise = 0.02;
-      target.prior_x.mean(0) = (k % columns + 0.5) * pitch;
-      target.prior_y.mean(0) = (k / columns + 0.5) * pitch;
+      const int column = k % columns, row = k / columns;
+      target.prior_x.mean(0) = (column + 0.5) * pitch;
+      target.prior_y.mean(0) = (row + 0.5) * pitch;
       target.states.fill(
           {target.prior_x.mean(0), target.prior_y.mean(0), 0, 0, 1.25, 1.25, 0.3 / count});
     }
@@ -209,6 +211,7 @@ Result growth(const Options& options) {
   }
   for (const int side : sides) {
     std::vector<std::string> cases;
+    cases.reserve(counts.size());
     for (const int count : counts) cases.push_back(name(count, side));
     suite.growth("with targets, " + std::to_string(side) + "x" + std::to_string(side), cases, {});
   }

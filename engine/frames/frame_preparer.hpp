@@ -30,14 +30,14 @@ class FramePreparer {
 
   /// Lets the background learn a frame that is not to be tracked yet, before the first prepare().
   /// Throws as that does.
-  void learn(const RawPixels& raw);
+  void learn(const RawPixels& given);
   /// The next frame of the stream. Fills frame-related members of a Scan: `raw` is the grey frame,
   /// reciprocal if so configured, its NaN pixels replaced by the background (0 where there is
   /// none); `whitened` is z, 0 where masked (pixels that are no numbers, beyond ToGrey::kLargest,
   /// or ignored); `noise_sigma`. Throws std::invalid_argument for an empty frame, one of more than
   /// kMaxSide px a side, other than 1, 3 or 4 channels, a pitch
   /// below a row, or a size other than the first frame's.
-  Scan prepare(const RawPixels& raw, std::int64_t frame, double time);
+  Scan prepare(const RawPixels& given, std::int64_t frame, double time);
   /// What was estimated, for the summary ("noise sigma 4.2 grey levels").
   std::vector<std::string> notes() const;
 
