@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "glint/engine/held_frames.hpp"
 #include "glint/engine/pipeline_stage.hpp"
 #include "glint/engine/state/fields.hpp"
 
@@ -47,10 +48,6 @@ struct Scheduler::State {
   State(const Device& on, FramePreparer with, const PointsConfig& points)
       : device(on), preparer(std::move(with)), finder(points, on) {}
 
-  void read_next(Source& source, std::optional<SourceFrame>& frame);
-  void hold_frames(Source& source);
-  void learn_held();
-  void release() { primed = std::min(primed, held.size()); }
   Token* read(Source& source, const std::stop_token& stop);
   void prepare(Token& token);
   void track(std::size_t i, Token& token);
@@ -73,67 +70,18 @@ struct Scheduler::State {
   std::array<Token, kFramesInFlight> tokens;
   bool started = false, finished = false;
   std::int64_t read_count = 0, next_frame = 0, delivered = 0, kept = 0;
-  std::deque<SourceFrame> held;   // until the background is learned
-  std::size_t primed = 0;         // frames that it is learned from
-  std::exception_ptr read_error;  // of the source, behind those that are held
+  HeldFrames held;
   std::atomic<bool> stopping = false;
   std::exception_ptr error;  // of the earliest frame that failed
   std::string settings;
 };
-
-/// Frames to learn the background from, until there are enough or no more; lent pixels are copied,
-/// so that nobody waits for them to be released. What the source throws waits behind them.
-void Scheduler::State::hold_frames(Source& source) {
-  try {
-    while (held.size() < primed) {
-      std::optional<SourceFrame> frame = source.next();
-      if (!frame) return;
-      if (frame->pixels.width > 0) {
-        own_pixels(*frame);
-      } else {
-        release(), ++primed;  // points have no background: this one is the last
-      }
-      held.push_back(std::move(*frame));
-    }
-  } catch (...) {
-    read_error = std::current_exception();
-    release();
-  }
-}
-
-/// The source's next frame, or the first of those that were held; nothing while more are to be
-/// held.
-void Scheduler::State::read_next(Source& source, std::optional<SourceFrame>& frame) {
-  frame.reset();
-  if (held.size() < primed) hold_frames(source);
-  if (held.size() < primed) return;
-  if (primed > 0) learn_held();
-  if (!held.empty()) {
-    frame.emplace(std::move(held.front()));
-    held.pop_front();
-  } else if (read_error) {
-    std::rethrow_exception(std::exchange(read_error, {}));
-  } else {
-    frame = source.next();
-  }
-}
-
-/// Stops at a frame that is damaged: the run that comes to it says so.
-void Scheduler::State::learn_held() {
-  primed = 0;
-  try {
-    for (const SourceFrame& frame : held) preparer.learn(frame.pixels);
-  } catch (const std::exception&) {
-    return;
-  }
-}
 
 Token* Scheduler::State::read(Source& source, const std::stop_token& stop) {
   if (stopping || stop.stop_requested()) return nullptr;
   Token& token = tokens[static_cast<std::size_t>(read_count) % kFramesInFlight];
   token.failed = false;
   token.error = nullptr;
-  reading.pass(token, [&] { read_next(source, token.source); });
+  reading.pass(token, [&] { held.read(source, preparer, token.source); });
   if (token.source) next_frame += token.source->skipped;
   token.frame = next_frame;
   if (!token.failed && !token.source) return nullptr;
@@ -259,14 +207,14 @@ std::int64_t Scheduler::run(Source& source, const std::stop_token& stop) {
 
 void Scheduler::prime(std::int64_t frames) {
   if (state_->started) throw std::logic_error("prime() before the first frame");
-  state_->primed = static_cast<std::size_t>(std::max<std::int64_t>(frames, 0));
+  state_->held.hold(static_cast<std::size_t>(std::max<std::int64_t>(frames, 0)));
 }
 
 bool Scheduler::holds_frames() const { return !state_->held.empty(); }
 
-void Scheduler::drop_held() { state_->held.clear(), state_->primed = 0; }
+void Scheduler::drop_held() { state_->held.clear(); }
 
-void Scheduler::release_primed() { state_->release(); }
+void Scheduler::release_primed() { state_->held.release(); }
 
 void Scheduler::advance(Source& source, const std::stop_token& stop) {
   if (state_->finished) throw std::logic_error("a Scheduler ends once: make another");
@@ -317,7 +265,7 @@ void Scheduler::take_state(ByteReader& from, After after) {
   s.started = s.finished = true;  // if this fails: half a state is no use
   take_bytes(from, s.next_frame), take_bytes(from, s.delivered);
   require_frame_number(s.next_frame), require_frame_number(s.delivered);
-  if (s.next_frame > 0) s.primed = 0;  // the state holds what was learned
+  if (s.next_frame > 0) s.held.clear();  // the state holds what was learned
   s.preparer.restore(from);
   for (TrackerStage& entry : s.trackers) entry.tracker->restore(from), take_bytes(from, entry.log);
   require_bytes(after == After::more || from.left() == 0, "it is too long");
