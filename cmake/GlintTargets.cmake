@@ -22,13 +22,27 @@ function(glint_optimise target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
 
-# glint_precompile(TARGET HEADERS...): with GLINT_PRECOMPILE, these and what nearly every source includes.
-# Sources must not rest on it: other builds do without.
-function(glint_precompile target)
-  if(GLINT_PRECOMPILE)
-    target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream>
-      <functional> <map> <memory> <optional> <span> <string> <vector> ${ARGN})
+# glint_unity(TARGET): with GLINT_UNITY, the sources of each folder are compiled together, eight at most.
+# So names in their unnamed namespaces must differ within a folder. The folders of the kernels are left
+# out: there the same names stand for the same thing of serial, tbb and gl. Each source must still
+# compile alone, as it does without GLINT_UNITY.
+function(glint_unity target)
+  if(NOT GLINT_UNITY)
+    return()
   endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source OUTPUT_VARIABLE folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    cmake_path(GET folder PARENT_PATH folder)
+    if(source MATCHES "[.]cpp$" AND (NOT folder MATCHES "^kernels/" OR folder STREQUAL "kernels/core"))
+      string(MAKE_C_IDENTIFIER "count_${folder}" count)
+      math(EXPR ${count} "${${count}} + 1")
+      math(EXPR part "(${${count}} - 1) / 8")
+      set_property(SOURCE ${source} TARGET_DIRECTORY ${target} PROPERTY UNITY_GROUP ${folder}/${part})
+    endif()
+  endforeach()
 endfunction()
 
 # The instruction sets that a kernel's lanes.cpp is built for; each becomes namespace glint::lanes_<isa>.
@@ -50,8 +64,9 @@ function(glint_lanes target name file)
     target_compile_definitions(${object} PRIVATE GLINT_LANES=lanes_${isa})
     # -O3 and no trapping or errno: what lets plain loops become vectors; none of them changes a value.
     # Sanitizers blow these loops up until -O3 takes minutes a file; -O1 checks as much in seconds.
+    # So does -O1 with the plain lanes where others exist: those are for processors from before 2013.
     set(level -O3)
-    if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    if(CMAKE_CXX_FLAGS MATCHES "-fsanitize" OR (isa STREQUAL plain AND "v3" IN_LIST GLINT_LANES))
       set(level -O1)
     endif()
     target_compile_options(${object} PRIVATE ${GLINT_LANES_FLAGS_${isa}}
@@ -60,15 +75,16 @@ function(glint_lanes target name file)
   endforeach()
 endfunction()
 
-# glint_kernel(NAME [more sources]): adds kernels/NAME/{serial,tbb,trial}.cpp, and lanes.cpp once per
-# instruction set.
+# glint_kernel(NAME [more sources]): adds kernels/NAME/{serial,tbb}.cpp, and lanes.cpp once per
+# instruction set; trial.cpp to glint_trials.
 function(glint_kernel name)
   set(dir ${PROJECT_SOURCE_DIR}/kernels/${name})
-  set(sources ${dir}/serial.cpp ${dir}/tbb.cpp ${dir}/trial.cpp)
+  set(sources ${dir}/serial.cpp ${dir}/tbb.cpp)
   foreach(extra IN LISTS ARGN)
     list(APPEND sources ${dir}/${extra})
   endforeach()
   target_sources(glint PRIVATE ${sources})
+  target_sources(glint_trials PRIVATE ${dir}/trial.cpp)
   if(EXISTS ${dir}/lanes.cpp)
     glint_lanes(glint ${name} ${dir}/lanes.cpp)
   endif()

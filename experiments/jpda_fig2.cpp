@@ -11,6 +11,7 @@
 #include "glint/engine/trackers/jpda/imm_window.hpp"
 #include "glint/experiments/jpda.hpp"
 #include "glint/experiments/monte_carlo.hpp"
+#include "glint/experiments/radar.hpp"
 #include "glint/kernels/core/random.hpp"
 
 namespace glint {

@@ -21,14 +21,14 @@ namespace {
 
 template <Kernel K>
 KernelEntry entry() {
-  return {K::name, &K::trials, EglKernel<K>};
+  return {K::name, EglKernel<K>};
 }
 
 }  // namespace
 
 std::span<const KernelEntry> all_kernels() {
   static const std::array kAll{
-      KernelEntry{"prepare_frame", &prepare_frame_trials, true},
+      KernelEntry{"prepare_frame", true},
       entry<PixelLikelihood>(),
       entry<ParticleLikelihood>(),
       entry<Propagate>(),

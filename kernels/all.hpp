@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <span>
-
-#include "glint/kernels/core/trial.hpp"
+#include <string_view>
 
 namespace glint {
+
+/// A kernel as parity tests and benchmarks see it.
+struct KernelEntry {
+  std::string_view name;
+  bool on_egl = false;  ///< else an egl device runs it on tbb
+};
 
 /// The one list of kernels: parity tests, `glint parity` and benchmarks run over it.
 std::span<const KernelEntry> all_kernels();

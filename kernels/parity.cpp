@@ -75,16 +75,18 @@ std::string description(const ParityRow& row) {
   return text;
 }
 
-std::vector<ParityRow> check_parity(const KernelEntry& kernel, std::span<const Device> devices) {
+std::vector<ParityRow> check_parity(std::string_view kernel,
+                                    std::span<const std::unique_ptr<Trial>> trials,
+                                    std::span<const Device> devices) {
   std::vector<ParityRow> rows;
-  for (const auto& trial : kernel.trials()) {
+  for (const auto& trial : trials) {
     trial->run(Device::serial());
     const std::vector<Output> reference = trial->outputs();
     std::vector<Output> first;
     for (const Device& device : devices) {
       trial->run(device);
       std::vector<Output> got = trial->outputs();
-      ParityRow row{std::string(kernel.name), trial->description(), device.description()};
+      ParityRow row{std::string(kernel), trial->description(), device.description()};
       row.worst = worst_error(reference, got);
       const std::vector<Mismatch> found = compare(reference, got);
       if (!found.empty()) row.outside = found.front();
@@ -97,6 +99,10 @@ std::vector<ParityRow> check_parity(const KernelEntry& kernel, std::span<const D
     }
   }
   return rows;
+}
+
+std::vector<ParityRow> check_parity(const KernelEntry& kernel, std::span<const Device> devices) {
+  return check_parity(kernel.name, trials_of(kernel), devices);
 }
 
 std::vector<Device> parity_devices(const Device& device) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "glint/kernels/core/device.hpp"
-#include "glint/kernels/core/trial.hpp"
+#include "glint/kernels/trials.hpp"
 
 namespace glint {
 
@@ -26,8 +28,12 @@ struct ParityRow {
 /// One sentence a row: device, verdict, and the first differing index if there is one.
 std::string description(const ParityRow& row);
 
-/// Runs every trial of a kernel on the serial device and on each of `devices`: all must be inside
-/// the trial's tolerance of serial, and bitwise equal to the first of them.
+/// Runs every trial on the serial device and on each of `devices`: all must be inside the trial's
+/// tolerance of serial, and bitwise equal to the first of them. Rows carry the kernel's name.
+std::vector<ParityRow> check_parity(std::string_view kernel,
+                                    std::span<const std::unique_ptr<Trial>> trials,
+                                    std::span<const Device> devices);
+/// All trials of a kernel.
 std::vector<ParityRow> check_parity(const KernelEntry& kernel, std::span<const Device> devices);
 
 /// The devices of the same kind that must agree with `device` bit for bit. tbb: 1, 2, 3 and 8

@@ -23,6 +23,7 @@ std::vector<std::vector<int>> components(int count, const std::vector<std::pair<
 
 void keep_best(PlainEvents& events, std::size_t most, double least) {
   std::vector<double> weights;
+  weights.reserve(events.size());
   for (const auto& [event, weight] : events) weights.push_back(weight);
   std::ranges::sort(weights, std::greater{});
   const double all = std::accumulate(weights.begin(), weights.end(), 0.0);

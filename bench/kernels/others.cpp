@@ -6,9 +6,9 @@
 #include "glint/bench/data.hpp"
 #include "glint/bench/kernels/suites.hpp"
 #include "glint/bench/limits.hpp"
-#include "glint/kernels/all.hpp"
 #include "glint/kernels/cell_weights/cell_weights.hpp"
 #include "glint/kernels/find_points/find_points.hpp"
+#include "glint/kernels/trials.hpp"
 
 namespace glint::bench {
 namespace {
@@ -45,7 +45,7 @@ struct NamedDevice {
 /// A case a device: all trials of a kernel.
 void add_trials(Suite& suite, const KernelEntry& kernel, const std::vector<NamedDevice>& devices) {
   using Trials = std::vector<std::unique_ptr<Trial>>;
-  const auto trials = std::make_shared<Trials>(kernel.trials());
+  const auto trials = std::make_shared<Trials>(trials_of(kernel));
   for (const auto& [name, device] : devices) {
     suite.add({std::string(kernel.name) + name, 1, 1, [trials, device = device] {
                  for (const auto& trial : *trials) trial->run(device);

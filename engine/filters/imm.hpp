@@ -94,7 +94,6 @@ class ImmOf {
 };
 
 extern template class ImmOf<2>;
-extern template class ImmOf<3>;
 using Imm = ImmOf<2>;
 
 }  // namespace glint

@@ -20,7 +20,7 @@
 namespace glint::cli {
 namespace {
 
-struct Request {
+struct ExperimentRequest {
   std::string name, out, keep, device = "auto";
   ExperimentOptions options;
   int threads = 0;
@@ -99,7 +99,7 @@ std::vector<ExperimentEntry> experiments() {
 }
 
 /// Nothing for a thread of the processor each.
-std::optional<Device> device_of(const Request& request, const ExperimentEntry& entry) {
+std::optional<Device> device_of(const ExperimentRequest& request, const ExperimentEntry& entry) {
   if (request.device == "auto" || request.device == "tbb") return std::nullopt;
   if (!entry.on_device) {
     throw UsageError(request.name + " runs on auto or tbb only, got --device " + request.device);
@@ -112,7 +112,7 @@ std::optional<Device> device_of(const Request& request, const ExperimentEntry& e
 }
 
 /// Where finished runs are kept; nothing if they are not to be.
-std::unique_ptr<RunFile> open_store(const Request& request, const ExperimentEntry& entry,
+std::unique_ptr<RunFile> open_store(const ExperimentRequest& request, const ExperimentEntry& entry,
                                     const std::optional<Device>& device) {
   if (request.keep.empty()) return nullptr;
   const std::string where = device ? request.device : "threads";
@@ -127,8 +127,8 @@ std::unique_ptr<RunFile> open_store(const Request& request, const ExperimentEntr
 }
 
 /// The figures, written where they are wanted; nothing in a process whose runs another has taken.
-std::optional<ExperimentResult> result_of(const Request& request, const ExperimentEntry& entry,
-                                          RunTeam* team) {
+std::optional<ExperimentResult> result_of(const ExperimentRequest& request,
+                                          const ExperimentEntry& entry, RunTeam* team) {
   const bool leads = team == nullptr || team->leads();
   if (leads && !request.out.empty()) output_folder(request.out);  // refused before any run
   ExperimentOptions options = request.options;
@@ -145,7 +145,7 @@ std::optional<ExperimentResult> result_of(const Request& request, const Experime
   }
 }
 
-void report(const Request& request, const ExperimentResult& result) {
+void report(const ExperimentRequest& request, const ExperimentResult& result) {
   if (request.json) {
     print_json(result);
   } else {
@@ -157,7 +157,7 @@ void report(const Request& request, const ExperimentResult& result) {
   plot_curves((folder / (result.name + ".png")).string(), result);
 }
 
-void run(const Request& request) {
+void run(const ExperimentRequest& request) {
   const std::vector<ExperimentEntry> known = experiments();
   const ExperimentEntry& entry = find_experiment(request.name, known);
   const std::unique_ptr<ProcessTeam> team = mpi_team();
@@ -184,7 +184,7 @@ std::string names() {
 
 void add_experiment(Command& program) {
   Command command = program.subcommand(kExperiment.name, kExperiment.description);
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ExperimentRequest>();
   command.option("name", request->name, "Which one").required();
   command.option("--runs", request->options.runs, "Monte Carlo runs; 0 = the experiment's own")
       .in_range(0, 1000000);

@@ -21,7 +21,7 @@
 namespace glint::cli {
 namespace {
 
-struct Request {
+struct ParityRequest {
   std::string device = "auto";
   bool json = false;
 };
@@ -145,7 +145,7 @@ void check_logs(const Device& device, Report& report) {
   }
 }
 
-void run(const Request& request) {
+void print_parity(const ParityRequest& request) {
   const Device device = device_named(request.device);
   // Eight threads on machines with fewer cores; a tool may do that, the library may not.
   const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
@@ -165,7 +165,7 @@ void run(const Request& request) {
 
 void add_parity(Command& program) {
   Command command = program.subcommand(kParity.name, kParity.description);
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ParityRequest>();
   command.option("--device", request->device, "auto, serial, tbb, egl or egl:N").with_default();
   command.flag("--json", request->json, "print every trial on every device as JSON");
   command.footer(
@@ -178,7 +178,7 @@ void add_parity(Command& program) {
       "  glint parity\n"
       "  glint parity --device tbb --json\n"
       "  glint parity --device egl");
-  command.callback([request] { run(*request); });
+  command.callback([request] { print_parity(*request); });
 }
 
 }  // namespace glint::cli

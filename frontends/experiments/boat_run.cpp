@@ -13,8 +13,8 @@
 namespace glint {
 namespace {
 
-constexpr double kCutoff = 20;  // [m]
-constexpr double kBorder = 60;  // [m] of clutter about the truths
+constexpr double kBoatCutoff = 20;  // [m]
+constexpr double kBorder = 60;      // [m] of clutter about the truths
 
 double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -64,7 +64,7 @@ void judge_last(std::span<const TruthPoint> truth, std::span<const TrackPoint> r
     if (started == own.end()) continue;
     const auto track = std::ranges::find(reported, started->second, &TrackPoint::track_id);
     const TruthPoint* nearest = nullptr;
-    double least = kCutoff;
+    double least = kBoatCutoff;
     if (track != reported.end() && track->status != TrackStatus::halted) {
       for (const TruthPoint& other : truth) {
         const double d = distance({track->x, track->y}, {other.x, other.y});
@@ -164,7 +164,7 @@ BoatScore follow_boats(const BoatRecord& record, const ImmJpdaConfig& config, do
     return points;
   };
   const std::vector<TrackPoint> revised = in_reach(log.revised());
-  const EvaluationOptions options{.cutoff = kCutoff, .frames = last + 1};
+  const EvaluationOptions options{.cutoff = kBoatCutoff, .frames = last + 1};
   score.scores = evaluate(record.truth, in_reach(log.online()), options);
   for (const auto& [id, ignored] : score.scores.truths) {
     score.coverage[id] = coverage_of(id, record.truth, revised, options);

@@ -12,7 +12,7 @@
 namespace glint {
 namespace {
 
-constexpr double kCutoff = 8;  // [px]; box centres lie up to 3 px off the peaks
+constexpr double kClipCutoff = 8;  // [px]; box centres lie up to 3 px off the peaks
 
 /// The points of every frame, as the single-frame detector's.
 class Detections : public Sink {
@@ -54,7 +54,7 @@ std::vector<ClipScore> run_clip(const ClipInput& clip, const FramesConfig& frame
   scheduler.find_points();
   scheduler.add(detections);
   const auto source = open(clip, seed, device);
-  EvaluationOptions options{.cutoff = kCutoff, .frames = scheduler.run(*source)};
+  EvaluationOptions options{.cutoff = kClipCutoff, .frames = scheduler.run(*source)};
 
   std::vector<ClipScore> scores;
   for (const TrackLog* log : scheduler.logs()) {

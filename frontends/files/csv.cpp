@@ -17,7 +17,7 @@
 namespace glint {
 namespace {
 
-constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets write it
 
 /// Without blanks about it, and without quotes.
@@ -44,19 +44,19 @@ std::size_t locate(std::span<const std::string_view> header, std::string_view na
     const std::size_t end = names.find(kOr);
     const auto found = std::ranges::find(header, names.substr(0, end));
     if (found != header.end()) return static_cast<std::size_t>(found - header.begin());
-    if (end == std::string_view::npos) return kAbsent;
+    if (end == std::string_view::npos) return kNoColumn;
     names.remove_prefix(end + kOr.size());
   }
 }
 
-/// Where each wanted column stands; optional ones that are not there are kAbsent.
+/// Where each wanted column stands; optional ones that are not there are kNoColumn.
 std::vector<std::size_t> locate(const std::string& path, std::span<const std::string_view> header,
                                 std::span<const std::string_view> columns, std::size_t required) {
   std::vector<std::size_t> at;
   std::vector<std::string_view> missing;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     at.push_back(locate(header, columns[i]));
-    if (at.back() == kAbsent && i < required) missing.push_back(columns[i]);
+    if (at.back() == kNoColumn && i < required) missing.push_back(columns[i]);
   }
   if (missing.empty()) return at;
   throw std::runtime_error(
@@ -107,13 +107,13 @@ void read_csv(const std::string& path, std::span<const std::string_view> require
       continue;
     }
     for (std::size_t i = 0; i < at.size(); ++i) {
-      if (at[i] != kAbsent && at[i] >= cells.size()) {
+      if (at[i] != kNoColumn && at[i] >= cells.size()) {
         throw std::runtime_error(
             fmt::format("{}:{}: has {} cells, too few to hold {}; is the file "
                         "complete?",
                         path, number, cells.size(), columns[i]));
       }
-      wanted[i] = at[i] == kAbsent ? std::string_view() : cells[at[i]];
+      wanted[i] = at[i] == kNoColumn ? std::string_view() : cells[at[i]];
     }
     f(CsvRow(path, number, columns, wanted));
   }

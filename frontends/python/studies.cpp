@@ -80,11 +80,6 @@ py::dict row_dict(const ExperimentRow& row) {
                   "inside"_a = row.inside());
 }
 
-template <class T>
-py::array_t<T> array_of(const std::vector<T>& values) {
-  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
-}
-
 py::dict curve_dict(const Curve& curve) {
   return py::dict("level"_a = curve.level, "condition"_a = curve.condition,
                   "metric"_a = curve.metric, "frame"_a = array_of(curve.frame),

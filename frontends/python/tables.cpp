@@ -6,15 +6,6 @@
 #include "glint/frontends/capi/track_row.hpp"
 
 namespace glint::python {
-namespace {
-
-template <class Row>
-py::array_t<Row> array_of(const std::vector<Row>& rows) {
-  return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
-}
-
-}  // namespace
-
 void register_rows() {
   PYBIND11_NUMPY_DTYPE(glint_track, frame, time, track_id, tracker, status, x, y, vx, vy, intensity,
                        existence, var_x, cov_xy, var_y);

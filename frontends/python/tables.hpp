@@ -18,6 +18,12 @@ namespace py = pybind11;
 using TrackArray = py::array_t<glint_track>;
 using TruthArray = py::array_t<TruthPoint>;
 
+/// A copy of a list.
+template <class T>
+py::array_t<T> array_of(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
 /// Tells NumPy what the rows look like; before any array of them is made.
 void register_rows();
 

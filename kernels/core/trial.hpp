@@ -41,12 +41,4 @@ struct Mismatch {
 /// Nothing if `got` is inside the tolerances of `want`.
 std::vector<Mismatch> compare(const std::vector<Output>& want, const std::vector<Output>& got);
 
-/// A kernel as parity tests and benchmarks see it.
-struct KernelEntry {
-  std::string_view name;
-  /// The trials at every tested size: empty, one, tile-1, tile, tile+1, odd widths, borders, modes.
-  std::vector<std::unique_ptr<Trial>> (*trials)();
-  bool on_egl = false;  ///< else an egl device runs it on tbb
-};
-
 }  // namespace glint

@@ -10,7 +10,7 @@ namespace {
 
 enum class Sky { clear, cloudy };
 
-struct Settings {
+struct TestSettings {
   Sky sky = Sky::clear;
   bool online = true;
   int birth_particles = 1000;
@@ -19,7 +19,7 @@ struct Settings {
   std::string label = "a";
 };
 
-void describe(FieldList& list, Settings& s) {
+void describe(FieldList& list, TestSettings& s) {
   list("online", s.online, "report at once");
   list("birth_particles", s.birth_particles, 1, 10'000'000, "", "particles born a frame");
   list("survival", s.survival, 0, 1, "", "probability of surviving a frame");
@@ -29,8 +29,8 @@ void describe(FieldList& list, Settings& s) {
 }
 
 struct ConfigTest : ::testing::Test {
-  ConfigSection section = ConfigSection::of<Settings>("trackers.test");
-  const Settings& settings = section.as<Settings>();
+  ConfigSection section = ConfigSection::of<TestSettings>("trackers.test");
+  const TestSettings& settings = section.as<TestSettings>();
 
   ConfigField& field(const std::string& key) {
     for (ConfigField& f : section.fields()) {
@@ -60,8 +60,8 @@ TEST_F(ConfigTest, SectionOwnsItsStructAndItsDefaults) {
   EXPECT_EQ(section.name(), "trackers.test");
   EXPECT_EQ(section.fields().size(), 6u);
   EXPECT_EQ(settings.birth_particles, 1000);
-  const ConfigSection other = ConfigSection::of("x", Settings{.birth_particles = 7});
-  EXPECT_EQ(other.as<Settings>().birth_particles, 7);
+  const ConfigSection other = ConfigSection::of("x", TestSettings{.birth_particles = 7});
+  EXPECT_EQ(other.as<TestSettings>().birth_particles, 7);
 }
 
 TEST_F(ConfigTest, AssignsEachType) {
@@ -130,7 +130,7 @@ TEST_F(ConfigTest, EnumerationsAreNamed) {
   EXPECT_EQ(settings.sky, Sky::cloudy);
 }
 
-std::string fault_of(const Settings& settings) {
+std::string fault_of(const TestSettings& settings) {
   try {
     valid(settings);
   } catch (const ConfigError& e) {
@@ -149,13 +149,13 @@ TEST(ValidConfig, StructsFilledByProgramsAreHeldToTheSameRanges) {
             "polarity must be bright, dark or both, got \"Bright\"");
   EXPECT_EQ(fault_of({.sky = static_cast<Sky>(7)}),
             "sky must be clear or cloudy, got \"another value\"");
-  EXPECT_EQ(valid(Settings{.survival = 0.5}).survival, 0.5);
+  EXPECT_EQ(valid(TestSettings{.survival = 0.5}).survival, 0.5);
 }
 
 TEST_F(ConfigTest, ASectionIsOfItsOwnTypeOnly) {
   struct Other {};
   EXPECT_THROW(section.as<Other>(), ConfigError);
-  EXPECT_EQ(section.as<Settings>().birth_particles, 1000);
+  EXPECT_EQ(section.as<TestSettings>().birth_particles, 1000);
 }
 
 TEST_F(ConfigTest, ReadsTextAsTheFieldsType) {

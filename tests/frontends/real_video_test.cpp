@@ -16,7 +16,7 @@ using test::expect_error;
 using test::Folder;
 using test::message_of;
 
-constexpr int kWidth = 64, kHeight = 48, kFrames = 24;
+constexpr int kClipWidth = 64, kClipHeight = 48, kClipFrames = 24;
 
 double target_x(int frame) { return 10 + 1.5 * frame; }
 
@@ -24,10 +24,10 @@ double target_x(int frame) { return 10 + 1.5 * frame; }
 ClipInput clip(const Folder& folder) {
   ClipInput input{folder / "clip.npy", {}};
   NpyWriter writer(input.frames);
-  for (int t = 0; t < kFrames; ++t) {
-    Image<float> image(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+  for (int t = 0; t < kClipFrames; ++t) {
+    Image<float> image(kClipWidth, kClipHeight);
+    for (int y = 0; y < kClipHeight; ++y) {
+      for (int x = 0; x < kClipWidth; ++x) {
         const double dx = x - target_x(t), dy = y - 20;
         image.view()(x, y) = static_cast<float>(100 + x + 60 * std::exp(-(dx * dx + dy * dy) / 2));
       }
@@ -51,7 +51,7 @@ TEST(RealVideo, ABrightTargetIsFollowedByEveryTracker) {
   const auto scores = run_clip(input, {}, trackers(), 3);
   ASSERT_EQ(scores.size(), 2U);
   for (const ClipScore& score : scores) {
-    EXPECT_EQ(score.online.ospa.size(), static_cast<std::size_t>(kFrames));
+    EXPECT_EQ(score.online.ospa.size(), static_cast<std::size_t>(kClipFrames));
     EXPECT_GT(score.online.detected_points, 0.6);
     EXPECT_GE(score.revised.detected_points, score.online.detected_points);
     EXPECT_EQ(score.online.detected_truths, 1);
@@ -82,7 +82,7 @@ TEST(RealVideo, ARunIsAFunctionOfItsSeed) {
 }
 
 TEST(RealVideo, NoiseAloneGivesNoTracks) {
-  const auto tracks = tracks_in_noise({kWidth, kHeight, 40}, {}, trackers(), 1);
+  const auto tracks = tracks_in_noise({kClipWidth, kClipHeight, 40}, {}, trackers(), 1);
   EXPECT_EQ(tracks[0], 0);
 }
 

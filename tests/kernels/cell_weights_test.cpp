@@ -5,18 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "glint/kernels/core/random.hpp"
+#include "kernels/special_floats.hpp"
 
 namespace glint {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-struct Cloud {
+struct WeightedCloud {
   std::vector<float> x, y, predicted, log_ratio, updated;
   CellWorkspace workspace;
 
@@ -37,8 +34,8 @@ struct Cloud {
   }
 };
 
-Cloud random_cloud(std::size_t n, int width, int height) {
-  Cloud cloud;
+WeightedCloud random_cloud(std::size_t n, int width, int height) {
+  WeightedCloud cloud;
   for (std::uint32_t i = 0; i < n; ++i) {
     const Words4 words = random_words(random_key(4, 0, Purpose::trial), i);
     cloud.add(uniform(words.w[0]) * static_cast<float>(width + 2) - 1.5f,
@@ -87,7 +84,7 @@ TEST_P(CellWeightsOn, EqualTheDefinition) {
   for (const auto& [width, height, half_width] :
        {std::tuple{13, 11, 2}, {40, 3, 1}, {1, 9, 7}, {7, 1, 3}, {5, 5, 0}}) {
     for (const Psi psi : {Psi::window, Psi::cell}) {
-      Cloud cloud = random_cloud(700, width, height);
+      WeightedCloud cloud = random_cloud(700, width, height);
       CellWeights::Args args = cloud.args(width, height, half_width);
       args.psi = psi;
       args.clutter = 0.7f;
@@ -101,7 +98,7 @@ TEST_P(CellWeightsOn, EqualTheDefinition) {
 }
 
 TEST_P(CellWeightsOn, RunsGroupParticlesByPixelInOrder) {
-  Cloud cloud;
+  WeightedCloud cloud;
   for (const auto& [x, y] : {std::pair{2.4f, 1.0f},
                              {0.0f, 0.0f},
                              {1.6f, 1.4f},
@@ -123,7 +120,7 @@ TEST_P(CellWeightsOn, RunsGroupParticlesByPixelInOrder) {
 }
 
 TEST_P(CellWeightsOn, WindowsDoNotWrapAroundTheBorder) {
-  Cloud cloud;
+  WeightedCloud cloud;
   cloud.add(0, 5, 1, 0);
   cloud.add(9, 4, 1, 0);
   cloud.add(9, 6, 1, 0);
@@ -133,7 +130,7 @@ TEST_P(CellWeightsOn, WindowsDoNotWrapAroundTheBorder) {
 }
 
 TEST_P(CellWeightsOn, AnIsolatedCellWithoutClutterHoldsOneTarget) {
-  Cloud cloud;
+  WeightedCloud cloud;
   for (int i = 0; i < 1000; ++i) {
     cloud.add(20 + 0.0004f * static_cast<float>(i), 30, 1e-3f, 0.01f * static_cast<float>(i));
   }
@@ -145,7 +142,7 @@ TEST_P(CellWeightsOn, AnIsolatedCellWithoutClutterHoldsOneTarget) {
 }
 
 TEST_P(CellWeightsOn, AWindowNeverHoldsMoreThanOneTarget) {
-  Cloud cloud = random_cloud(3000, 30, 20);
+  WeightedCloud cloud = random_cloud(3000, 30, 20);
   run(cloud.args(30, 20, 1));
   const CellRuns& runs = cloud.workspace.runs;
   for (const float mass : runs.mass) EXPECT_LE(mass, 1);
@@ -161,7 +158,7 @@ TEST_P(CellWeightsOn, AWindowNeverHoldsMoreThanOneTarget) {
 }
 
 TEST_P(CellWeightsOn, PermutedParticlesGetPermutedWeights) {
-  Cloud cloud = random_cloud(6000, 50, 40), shuffled;
+  WeightedCloud cloud = random_cloud(6000, 50, 40), shuffled;
   std::vector<std::uint32_t> permutation(6000);
   for (std::uint32_t i = 0; i < 6000; ++i) permutation[i] = i * 7 % 6000;
   for (const std::uint32_t i : permutation) {
@@ -178,7 +175,7 @@ TEST_P(CellWeightsOn, PermutedParticlesGetPermutedWeights) {
 }
 
 TEST_P(CellWeightsOn, OddLogRatiosAreHarmless) {
-  Cloud cloud;
+  WeightedCloud cloud;
   cloud.add(3, 3, 1, -kInfinity);
   cloud.add(3, 3, 1, kNan);
   cloud.add(3, 3, 1, kInfinity);
@@ -192,7 +189,7 @@ TEST_P(CellWeightsOn, OddLogRatiosAreHarmless) {
 }
 
 TEST_P(CellWeightsOn, AcceptNothing) {
-  Cloud none, outside;
+  WeightedCloud none, outside;
   run(none.args(8, 8));
   EXPECT_EQ(none.workspace.runs.size(), 0u);
   EXPECT_EQ(none.workspace.runs.first, std::vector<std::uint32_t>{0});
@@ -203,7 +200,7 @@ TEST_P(CellWeightsOn, AcceptNothing) {
 }
 
 TEST_P(CellWeightsOn, RefuseUnlikeLengths) {
-  Cloud cloud = random_cloud(4, 8, 8);
+  WeightedCloud cloud = random_cloud(4, 8, 8);
   CellWeights::Args args = cloud.args(8, 8);
   args.y = args.y.first(3);
   EXPECT_THROW(run(args), std::invalid_argument);
@@ -212,7 +209,7 @@ TEST_P(CellWeightsOn, RefuseUnlikeLengths) {
 }
 
 TEST_P(CellWeightsOn, AWarmWorkspaceGivesTheSameAsAFreshOne) {
-  Cloud large = random_cloud(9000, 60, 60), small = random_cloud(50, 20, 20), fresh = small;
+  WeightedCloud large = random_cloud(9000, 60, 60), small = random_cloud(50, 20, 20), fresh = small;
   run(large.args(60, 60));
   CellWeights::Args args = small.args(20, 20);
   args.workspace = &large.workspace;

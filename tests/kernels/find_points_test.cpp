@@ -4,16 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "glint/kernels/core/point_spread.hpp"
 #include "glint/kernels/core/random.hpp"
+#include "kernels/special_floats.hpp"
 
 namespace glint {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 using Mode = FindPoints::Mode;
 
 Image<float> image(int width, std::initializer_list<float> pixels) {

@@ -96,13 +96,10 @@ class FaultyTrial : public Trial {
 
 template <Fault fault>
 std::vector<ParityRow> failures() {
-  const KernelEntry entry{"fake", [] {
-                            std::vector<std::unique_ptr<Trial>> list;
-                            list.push_back(std::make_unique<FaultyTrial<fault>>());
-                            return list;
-                          }};
+  std::vector<std::unique_ptr<Trial>> trials;
+  trials.push_back(std::make_unique<FaultyTrial<fault>>());
   const std::vector<Device> devices = parity_devices(Device::tbb());
-  std::vector<ParityRow> rows = check_parity(entry, devices);
+  std::vector<ParityRow> rows = check_parity("fake", trials, devices);
   EXPECT_EQ(rows.size(), devices.size());
   std::erase_if(rows, [](const ParityRow& row) { return row.ok(); });
   return rows;

@@ -4,28 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "glint/kernels/core/device.hpp"
 #include "glint/kernels/particle_likelihood/polynomials.hpp"
+#include "kernels/special_floats.hpp"
 
 namespace glint {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-Image<float> noise(int width, int height) {
-  Image<float> image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const auto item = static_cast<std::uint32_t>(y * width + x);
-      image.view()(x, y) = random_normals(random_key(5, 0, Purpose::trial), item).n[0];
-    }
-  }
-  return image;
-}
 
 struct Cloud {
   std::vector<float> x, y, intensity;
@@ -85,7 +71,7 @@ class ParticleLikelihoodOn : public testing::TestWithParam<DeviceKind> {
 };
 
 TEST_P(ParticleLikelihoodOn, IsTheSumOverTheClippedWindow) {
-  const Image<float> frame = noise(23, 17);
+  const Image<float> frame = noise_frame(23, 17);
   for (const double sigma : {0.3, 0.6, 0.7, 1.0, 1.5}) {
     for (int i = 0; i < 60; ++i) {
       const float x = -0.5f + 0.3827f * static_cast<float>(i);  // from edge to edge
@@ -109,7 +95,7 @@ TEST_P(ParticleLikelihoodOn, HalfwayBelongsToThePixelOnTheRightAndBelow) {
 }
 
 TEST_P(ParticleLikelihoodOn, OutsideOrNotANumberIsImpossible) {
-  const Image<float> frame = noise(30, 20);
+  const Image<float> frame = noise_frame(30, 20);
   const Cloud inside{{-0.5f, 29.49f, 3, 3}, {4, 4, -0.5f, 19.49f}, {5, 5, 5, 5}};
   for (const float l : log_ratios(frame, 0.7, inside, device_)) EXPECT_TRUE(std::isfinite(l));
   const Cloud outside{{-0.51f, 29.5f, 3, 3, kNan, kInfinity, 3, 3, 3, -1e30f},
@@ -144,7 +130,7 @@ TEST_P(ParticleLikelihoodOn, PeaksAtTheTarget) {
 }
 
 TEST_P(ParticleLikelihoodOn, JitterMovesTheParticleByTwoOfItsNormals) {
-  const Image<float> frame = noise(60, 50);
+  const Image<float> frame = noise_frame(60, 50);
   const RandomKey key = random_key(11, 4, Purpose::jitter);
   Cloud cloud, moved;
   for (std::uint32_t i = 0; i < 130; ++i) {

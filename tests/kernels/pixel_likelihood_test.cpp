@@ -8,20 +8,10 @@
 
 #include "glint/kernels/core/device.hpp"
 #include "glint/kernels/core/random.hpp"
+#include "kernels/special_floats.hpp"
 
 namespace glint {
 namespace {
-
-Image<float> noise(int width, int height) {
-  Image<float> image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const auto item = static_cast<std::uint32_t>(y * width + x);
-      image.view()(x, y) = random_normals(random_key(5, 0, Purpose::trial), item).n[0];
-    }
-  }
-  return image;
-}
 
 Image<float> map_of(FrameView frame, double sigma, float intensity,
                     const Device& device = Device::tbb(2)) {
@@ -58,7 +48,7 @@ Moments moments(FrameView frame, const PointSpread& spread, int x, int y) {
 
 TEST(PixelLikelihood, IsIntensityTimesCorrelationMinusHalfItsSquareTimesEnergy) {
   for (const double sigma : {0.3, 0.6, 0.7, 1.0, 1.7}) {
-    const Image<float> frame = noise(37, 11);
+    const Image<float> frame = noise_frame(37, 11);
     const PointSpread spread = PointSpread::of(sigma);
     for (const Device& device : {Device::serial(), Device::tbb(1)}) {
       const Image<float> map = map_of(frame, sigma, 6, device);
@@ -85,7 +75,7 @@ TEST(PixelLikelihood, SeesTheWholeTargetThroughAWideWindow) {
 }
 
 TEST(PixelLikelihood, MovesWithTheFrame) {
-  const Image<float> frame = noise(80, 70);
+  const Image<float> frame = noise_frame(80, 70);
   const FrameView all = frame.view();
   const FrameView part{all.data + 9 * all.pitch + 5, 60, 50, all.pitch};
   const Image<float> whole = map_of(all, 1.0, 9), moved = map_of(part, 1.0, 9);
@@ -97,7 +87,7 @@ TEST(PixelLikelihood, MovesWithTheFrame) {
 }
 
 TEST(PixelLikelihood, IsQuadraticInTheIntensity) {
-  const Image<float> frame = noise(40, 30);
+  const Image<float> frame = noise_frame(40, 30);
   const Image<float> one = map_of(frame, 0.7, 1), two = map_of(frame, 0.7, 2),
                      three = map_of(frame, 0.7, 3);
   for (int x = 0; x < 40; ++x) {
@@ -108,7 +98,7 @@ TEST(PixelLikelihood, IsQuadraticInTheIntensity) {
 
 TEST(PixelLikelihood, HitsAreTheMapAboveTheThresholdRowByRow) {
   for (const float threshold : {-1e9f, -8.0f, -3.0f, 0.5f, 2.0f, 1e9f}) {
-    const Image<float> frame = noise(211, 150);
+    const Image<float> frame = noise_frame(211, 150);
     Image<float> map(211, 150);
     std::vector<Hit> hits{{1, 2, 3}}, alone;
     PixelLikelihood::Args args{.frame = frame.view(),
@@ -132,7 +122,7 @@ TEST(PixelLikelihood, HitsAreTheMapAboveTheThresholdRowByRow) {
 }
 
 TEST(PixelLikelihood, KeepsItsHitMemoryOnceWarm) {
-  const Image<float> frame = noise(300, 200);
+  const Image<float> frame = noise_frame(300, 200);
   std::vector<Hit> hits;
   const PixelLikelihood::Args args{.frame = frame.view(),
                                    .spread = PointSpread::of(0.7),
@@ -170,7 +160,7 @@ TEST(PixelLikelihood, RawWordsAreTheWhitenedFrame) {
 
 TEST(PixelLikelihood, StreamedStoresChangeNothing) {
   const int width = 4100, height = 2200;  // a map beyond any last cache's share
-  const Image<float> frame = noise(width, height);
+  const Image<float> frame = noise_frame(width, height);
   const Image<float> streamed = map_of(frame, 0.7, 8);
   Image<float> shifted(width + 1, height);
   const ImageView<float> unaligned{shifted.view().data + 1, width, height, shifted.view().pitch};

@@ -15,11 +15,10 @@
 #include "glint/kernels/parity.hpp"
 #include "glint/kernels/prepare_frame/median_network.hpp"
 #include "glint/kernels/prepare_frame/trial_images.hpp"
+#include "kernels/special_floats.hpp"
 
 namespace glint {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 Image<float> filled(int width, int height, float value) {
   Image<float> image(width, height);
@@ -294,8 +293,8 @@ TEST(EglPrepareFrame, GivesTheSameBitsInBandsOfAFewRows) {
   constexpr std::size_t kBytes = std::size_t{40} << 10;
   const Device small = Device::egl(device.context().device().number);
   small.context().run([](gl::Queue& queue) { queue.limit(kBytes); });
-  const KernelEntry entry{"prepare_frame", &window_trials, true};
-  for (const ParityRow& row : check_parity(entry, std::array{device, small})) {
+  const std::array devices{device, small};
+  for (const ParityRow& row : check_parity("prepare_frame", window_trials(), devices)) {
     EXPECT_TRUE(row.ok()) << description(row);
   }
 }

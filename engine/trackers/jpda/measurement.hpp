@@ -31,16 +31,6 @@ struct RangeAzimuth {
     return std::tie(s.noise, s.place);
   }
 };
-/// Range [length], azimuth and elevation above the plane of x and y [rad]; their noise is above 0.
-struct RangeAzimuthElevation {
-  static constexpr int kAxes = 3, kSize = 3, kAzimuth = 1;
-  Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of the sensor
-  template <class Self>
-  static auto fields(Self& s) {
-    return std::tie(s.noise, s.place);
-  }
-};
 
 template <class Sensor>
 using Measurement = Eigen::Matrix<double, Sensor::kSize, 1>;
@@ -57,12 +47,9 @@ Eigen::Matrix<double, Axes, 1> expected_measurement(
   return position;
 }
 Eigen::Vector2d expected_measurement(const RangeAzimuth& sensor, const Eigen::Vector2d& position);
-Eigen::Vector3d expected_measurement(const RangeAzimuthElevation& sensor,
-                                     const Eigen::Vector3d& position);
 
 /// Finite everywhere: at the sensor itself, where there is no direction, as if 1e-9 away from it.
 Eigen::Matrix2d jacobian(const RangeAzimuth& sensor, const Eigen::Vector2d& position);
-Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vector3d& position);
 
 /// The position that a measurement belongs to, with its covariance to first order in the noise:
 /// what a track may start from.
@@ -72,7 +59,5 @@ Gaussian<Axes> inverse_measurement(const PositionSensor<Axes>& sensor,
   return {measurement, sensor.noise};
 }
 Gaussian<2> inverse_measurement(const RangeAzimuth& sensor, const Eigen::Vector2d& measurement);
-Gaussian<3> inverse_measurement(const RangeAzimuthElevation& sensor,
-                                const Eigen::Vector3d& measurement);
 
 }  // namespace glint

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "glint/experiments/radar.hpp"
+
 namespace glint {
 namespace {
 

@@ -9,7 +9,7 @@
 namespace glint {
 namespace {
 
-constexpr HitLogic kLogic{.confirm_hits = 3, .confirm_window = 4, .halt_misses = 2};
+constexpr HitLogic kThreeOfFour{.confirm_hits = 3, .confirm_window = 4, .halt_misses = 2};
 
 /// The status after the first point and after each scan of `seen`, x for a hit: t(entative),
 /// c(onfirmed) or h(alted), up to the end.
@@ -25,27 +25,27 @@ std::string lived(const HitLogic& logic, bool known, const std::string& seen) {
 }
 
 TEST(TrackLifeByHits, CountsTheFirstPointAsAHit) {
-  EXPECT_EQ(lived(kLogic, false, "xx"), "ttc");
+  EXPECT_EQ(lived(kThreeOfFour, false, "xx"), "ttc");
   EXPECT_EQ(lived({.confirm_hits = 1, .confirm_window = 1}, false, "x"), "cc");
 }
 
 TEST(TrackLifeByHits, ConfirmsWithinTheWindowOrEnds) {
-  EXPECT_EQ(lived(kLogic, false, "x.x"), "tttc");
-  EXPECT_EQ(lived(kLogic, false, "x..x"), "ttth");
-  EXPECT_EQ(lived(kLogic, false, "..."), "ttth");
+  EXPECT_EQ(lived(kThreeOfFour, false, "x.x"), "tttc");
+  EXPECT_EQ(lived(kThreeOfFour, false, "x..x"), "ttth");
+  EXPECT_EQ(lived(kThreeOfFour, false, "..."), "ttth");
 }
 
 TEST(TrackLifeByHits, EndsAfterMissesInARow) {
-  EXPECT_EQ(lived(kLogic, false, "xx.x.."), "ttcccch");
-  EXPECT_EQ(lived(kLogic, true, ".x.x.."), "cccccch");
+  EXPECT_EQ(lived(kThreeOfFour, false, "xx.x.."), "ttcccch");
+  EXPECT_EQ(lived(kThreeOfFour, true, ".x.x.."), "cccccch");
   EXPECT_EQ(lived({.confirm_hits = 1, .confirm_window = 1, .halt_misses = 0}, true, "...."),
             "ccccc");
 }
 
 TEST(TrackLifeByHits, DoesNotKnowHowLikelyTheTargetExists) {
-  TrackLife life(kLogic, true);
+  TrackLife life(kThreeOfFour, true);
   EXPECT_TRUE(std::isnan(life.existence()));
-  life.see(kLogic, true);
+  life.see(kThreeOfFour, true);
   EXPECT_TRUE(std::isnan(life.existence()));
 }
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "glint/experiments/experiment.hpp"
+#include "experiments/papers/papers.hpp"
 
 namespace glint {
 namespace {
@@ -16,17 +16,6 @@ ExperimentResult run_on(const Device& device, const char* experiment, int runs) 
   options.seed = 5000;
   options.device = device;
   return run_experiment(find_experiment(experiment), options, workers);
-}
-
-/// The number of figures with a band; those outside fail.
-int expect_in_bands(const ExperimentResult& result) {
-  int banded = 0;
-  for (const ExperimentRow& r : result.rows) {
-    if (!r.band) continue;
-    ++banded;
-    EXPECT_TRUE(*r.inside()) << r.name << ", " << r.metric << ": " << r.ours;
-  }
-  return banded;
 }
 
 // smc-phd, mm-phd, mm-pf, viterbi and h-pmht.

@@ -3,22 +3,14 @@
 
 #include <string>
 
-#include "glint/experiments/experiment.hpp"
+#include "experiments/papers/papers.hpp"
 
 namespace glint {
 namespace {
 
-ExperimentResult short_run_of(const char* experiment) {
-  Workers workers;
-  ExperimentOptions options;
-  options.runs = 3;
-  options.seed = 5000;
-  return run_experiment(find_experiment(experiment), options, workers);
-}
-
 TEST(HPmhtTable2, EveryFigureIsInItsBand) {
   int banded = 0;
-  for (const ExperimentRow& r : short_run_of("hpmht-table2").rows) {
+  for (const ExperimentRow& r : run_of("hpmht-table2", 3).rows) {
     if (!r.band) continue;
     ++banded;
     // Three runs: a tenth of a pixel and one scan of sixty leave room for chance.
@@ -31,7 +23,7 @@ TEST(HPmhtTable2, EveryFigureIsInItsBand) {
 
 TEST(HPmhtTable3, AThresholdTooLowLosesTheDimTarget) {
   double low = -1, high = -1;
-  for (const ExperimentRow& r : short_run_of("hpmht-table3").rows) {
+  for (const ExperimentRow& r : run_of("hpmht-table3", 3).rows) {
     if (r.metric.front() != 'h') continue;
     if (r.name == "h-pmht, scenario 4 at .9 I_Th") low = r.ours;
     if (r.name == "h-pmht, scenario 4 at 1.1 I_Th") high = r.ours;

@@ -4,17 +4,10 @@
 #include <limits>
 #include <string>
 
-#include "glint/experiments/experiment.hpp"
+#include "experiments/papers/papers.hpp"
 
 namespace glint {
 namespace {
-
-ExperimentResult run_of(const char* experiment, int runs) {
-  Workers workers;
-  ExperimentOptions options;
-  options.runs = runs, options.seed = 5000;
-  return run_experiment(find_experiment(experiment), options, workers);
-}
 
 double figure(const ExperimentResult& result, const std::string& name, const std::string& metric) {
   for (const ExperimentRow& row : result.rows) {

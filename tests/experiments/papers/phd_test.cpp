@@ -1,40 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "glint/experiments/experiment.hpp"
+#include "experiments/papers/papers.hpp"
 
 namespace glint {
 namespace {
 
 constexpr int kRuns = 12;
 
-/// A short run, on seeds that `glint experiment` does not use by default.
-ExperimentResult short_run_of(const char* experiment) {
-  Workers workers;
-  ExperimentOptions options;
-  options.runs = kRuns;
-  options.seed = 5000;
-  return run_experiment(find_experiment(experiment), options, workers);
-}
-
 const ExperimentResult& short_run() {
-  static const ExperimentResult kResult = short_run_of("phd-5.1");
+  static const ExperimentResult kResult = run_of("phd-5.1", kRuns);
   return kResult;
-}
-
-/// The number of figures with a band; those outside by more than three standard errors fail.
-int expect_in_bands(const ExperimentResult& result) {
-  int banded = 0;
-  for (const ExperimentRow& r : result.rows) {
-    if (!r.band) continue;
-    ++banded;
-    const double slack = 3 * r.spread / std::sqrt(kRuns);
-    EXPECT_TRUE(r.band->widened(slack).holds(r.ours))
-        << r.name << ", " << r.metric << ": " << r.ours;
-  }
-  return banded;
 }
 
 const ExperimentRow& row(const ExperimentResult& result, const std::string& name,
@@ -51,7 +27,7 @@ const ExperimentRow& row(const std::string& name, const std::string& metric) {
 double ospa_of(const std::string& name) { return row(name, "OSPA while present [px]").ours; }
 
 TEST(PhdSection51, EveryFigureIsInItsBandWithinThreeStandardErrors) {
-  EXPECT_EQ(expect_in_bands(short_run()), 29);
+  EXPECT_EQ(expect_in_bands(short_run(), 3, kRuns), 29);
 }
 
 TEST(PhdSection51, TwoFrameBirthBeatsUniformBirth) {
@@ -81,11 +57,11 @@ TEST(PhdSection51, TheImprovedTrackerBeatsTheStandardOne) {
 }
 
 TEST(PhdSection52, EveryFigureIsInItsBandWithinThreeStandardErrors) {
-  EXPECT_EQ(expect_in_bands(short_run_of("phd-5.2")), 10);
+  EXPECT_EQ(expect_in_bands(run_of("phd-5.2", kRuns), 3, kRuns), 10);
 }
 
 TEST(PhdSection53, EveryFigureIsInItsBandWithinThreeStandardErrors) {
-  EXPECT_GE(expect_in_bands(short_run_of("phd-5.3")), 8);
+  EXPECT_GE(expect_in_bands(run_of("phd-5.3", kRuns), 3, kRuns), 8);
 }
 
 }  // namespace

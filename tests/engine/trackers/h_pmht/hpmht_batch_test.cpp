@@ -47,7 +47,7 @@ ScriptedTarget straight(const Kinematics& start, double intensity = 25) {
   return t;
 }
 
-Scene scene_of(std::vector<ScriptedTarget> targets, double noise = 1) {
+Scene batch_scene(std::vector<ScriptedTarget> targets, double noise = 1) {
   Scene s;
   s.width = 50, s.height = 40, s.frames = kScans, s.noise_sigma = noise;
   s.point_spread = PointSpread::of(1);
@@ -84,7 +84,7 @@ std::vector<BatchTarget> two_guesses() {
 }
 
 Scene two_targets() {
-  return scene_of({straight({9, 11, 2.2, 0.8}), straight({37, 28, -1.8, -0.3})});
+  return batch_scene({straight({9, 11, 2.2, 0.8}), straight({37, 28, -1.8, -0.3})});
 }
 
 TEST(HPmhtBatch, NoIterationLowersTheObjective) {
@@ -154,7 +154,7 @@ TEST(HPmhtBatch, MixingProportionsAreTheCountsShares) {
 }
 
 TEST(HPmhtBatch, LearnsTheExtentOfATarget) {
-  Scene scene = scene_of({straight({25, 20, 0, 0}, 4000)}, 0);
+  Scene scene = batch_scene({straight({25, 20, 0, 0}, 4000)}, 0);
   scene.point_spread = PointSpread::of(2.5);
   Movie movie = film(scene);
   for (BatchScan& scan : movie.scans) {
@@ -187,7 +187,7 @@ TEST(HPmhtBatch, LearnsNoiseFromATenthToTenTimesTheSetting) {
 }
 
 TEST(HPmhtBatch, CoastsThroughAScanThatShowsNothing) {
-  Movie movie = film(scene_of({straight({9, 11, 2.2, 0.8})}));
+  Movie movie = film(batch_scene({straight({9, 11, 2.2, 0.8})}));
   Image<float> dark(50, 40);
   movie.scans[3].frame = dark.view();
   movie.scans[3].total = {0, 2000};

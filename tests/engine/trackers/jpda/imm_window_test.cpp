@@ -17,12 +17,12 @@ namespace {
 
 using Sensor = PositionSensor<2>;  // variance 1
 using Points = std::vector<Eigen::Vector2d>;
-constexpr double kDetection = 0.8, kClutter = 0.01;
+constexpr double kDetectionRate = 0.8, kClutter = 0.01;
 
 ImmWindowConfig window_of(int scans, WindowReading reading) {
   ImmWindowConfig config;
   config.window = scans, config.reading = reading;
-  config.detection = kDetection, config.gate = 100;
+  config.detection = kDetectionRate, config.gate = 100;
   return config;
 }
 
@@ -58,7 +58,7 @@ struct Filter {
     const double off = point - x;
     const double density = std::exp(-off * off / (2 * (variance + 1))) /
                            (2 * std::numbers::pi * std::sqrt((variance + 1) * (variance_y + 1)));
-    return kDetection * density / kClutter / (1 - kDetection);
+    return kDetectionRate * density / kClutter / (1 - kDetectionRate);
   }
 };
 
@@ -222,7 +222,7 @@ TEST(ImmWindow, ClutterOfAnyNumberHasTheDensityOfTheGates) {
   run.scan({{1, 0}});
   // One point in the gates, so K(1) = V with V the sum of both volumes, 9 pi 4 each.
   const double volume = 2 * 9 * std::numbers::pi * 4;
-  const double ratio = kDetection * density(1, 4) * volume / (1 - kDetection);
+  const double ratio = kDetectionRate * density(1, 4) * volume / (1 - kDetectionRate);
   EXPECT_NEAR(run.window.shares(0)[0], ratio / (1 + ratio), 1e-12);
 }
 

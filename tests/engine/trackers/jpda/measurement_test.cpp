@@ -8,6 +8,7 @@
 
 #include "glint/engine/filters/motion.hpp"
 #include "glint/engine/trackers/imm_pda_ai/pda.hpp"
+#include "glint/experiments/radar.hpp"
 
 namespace glint {
 namespace {

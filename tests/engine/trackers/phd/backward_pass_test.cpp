@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kRatio = 100;
+constexpr double kTraceRatio = 100;
 constexpr int kDetected = 6, kConfirmed = 7;  // frames
 
 /// A target that moves 2 px a frame to the right is detected in frame 6 and confirmed in frame 7.
@@ -31,7 +31,7 @@ class Traced {
 
   /// The points before detection in the revised record, by frame.
   std::map<std::int64_t, TrackPoint> trace(int backward_frames = 6) {
-    const TargetAppearance appearance = ready(exact_appearance(kRatio));
+    const TargetAppearance appearance = ready(exact_appearance(kTraceRatio));
     FollowedTargets targets(config_, exact_motion(), Device::serial(), 1);
     BackwardPass backward(config_, exact_motion(), backward_frames, Device::serial(), 1);
     targets.set_appearance(appearance), backward.set_appearance(appearance);
@@ -43,7 +43,7 @@ class Traced {
         particles_of({{.x = static_cast<float>(place(kDetected).x),
                        .y = 12,
                        .vx = 2,
-                       .intensity = static_cast<float>(intensity_of_ratio(kRatio))}});
+                       .intensity = static_cast<float>(intensity_of_ratio(kTraceRatio))}});
     const auto members = all_members(p);
     const Peak peak = describe_cluster(p, members, p.weight);
     targets.detect({peak, p, members}, at(kDetected), log);
@@ -65,7 +65,7 @@ class Traced {
   static StepTime at(int k) { return {k, k * 0.5, 1, 2}; }  // two frames a second
   Frame frame(int k) const {
     const bool visible = k >= kDetected || std::ranges::find(visible_, k) != visible_.end();
-    return visible ? image_of(kRatio, {place(k)}) : empty_frame();
+    return visible ? image_of(kTraceRatio, {place(k)}) : empty_frame();
   }
   std::vector<FollowedTarget> others(int k) const {
     std::vector<FollowedTarget> list;
@@ -115,7 +115,7 @@ TEST(BackwardPass, CarriesTheExistenceBackwards) {
   const auto points = Traced({4, 5}).trace();
   double n = 1;
   for (const int frame : {5, 4}) {
-    const double odds = 0.99 * n * kRatio;
+    const double odds = 0.99 * n * kTraceRatio;
     n = odds / (1 + odds);
     EXPECT_NEAR(points.at(frame).existence, n, 1e-5);
   }

@@ -14,7 +14,7 @@ namespace {
 using namespace test;
 
 /// Births lie around the pixels above 1; targets are so dim that l = 1 within a thousandth.
-DetectorConfig config_of() {
+DetectorConfig exact_detector() {
   DetectorConfig c;
   static_cast<AppearanceConfig&>(c) = exact_appearance(1 + 1e-6);
   static_cast<MotionConfig&>(c) = exact_motion();
@@ -52,7 +52,7 @@ FollowedTarget target_at(double x, double y) {
 double shared(double mass) { return mass / (1 + mass); }
 
 TEST(Detector, FindsAClusterAtEachTarget) {
-  Search s(config_of());
+  Search s(exact_detector());
   s.update({{8, 10}, {30, 25}});
   EXPECT_NEAR(s.detector.expected(), 2 * shared(1.5), 0.02);
   const auto found = s.detector.find(0.5);
@@ -72,7 +72,7 @@ TEST(Detector, FindsAClusterAtEachTarget) {
 
 // Births fill 3x3 pixels; a box of 2 x .6 px a side holds 1.44 of their 9.
 TEST(Detector, TakesTheRadiusOfAClusterFromTheSettings) {
-  DetectorConfig config = config_of();
+  DetectorConfig config = exact_detector();
   config.cluster_radius = 0.6;
   Search s(config);
   s.update({{8, 10}});
@@ -82,7 +82,7 @@ TEST(Detector, TakesTheRadiusOfAClusterFromTheSettings) {
 }
 
 TEST(Detector, RemovesAClusterAndNoOther) {
-  Search s(config_of());
+  Search s(exact_detector());
   s.update({{8, 10}, {30, 25}});
   const double all = s.detector.expected();
   const Cluster& gone = s.detector.find(0.5).front();
@@ -97,7 +97,7 @@ TEST(Detector, RemovesAClusterAndNoOther) {
 }
 
 TEST(Detector, StartsAgainAfterClear) {
-  Search s(config_of());
+  Search s(exact_detector());
   s.update({{8, 10}});
   s.detector.clear();
   EXPECT_EQ(s.detector.expected(), 0);
@@ -107,7 +107,7 @@ TEST(Detector, StartsAgainAfterClear) {
 
 // P-PHD (36): nothing is born at a target that is followed, and nothing lives there.
 TEST(Detector, IsBlindAroundTargetsThatAreFollowed) {
-  Search s(config_of());
+  Search s(exact_detector());
   s.update({{8, 10}, {30, 25}}, {target_at(9.3, 11.2)});
   const auto found = s.detector.find(0.3);
   ASSERT_EQ(found.size(), 1U);
@@ -120,7 +120,7 @@ TEST(Detector, IsBlindAroundTargetsThatAreFollowed) {
 
 /// The pixels [first, last] along x in which particles at y = 20 keep no weight.
 std::pair<int, int> masked_columns(double mask_half_width, double target_x) {
-  DetectorConfig config = config_of();
+  DetectorConfig config = exact_detector();
   config.mask_half_width = mask_half_width;
   Search s(config);
   std::vector<Pixel> row;
@@ -147,7 +147,7 @@ TEST(Detector, MasksABoxAroundThePixelThatHoldsTheTarget) {
 }
 
 TEST(Detector, OfOddsSumsWithoutSharing) {
-  Search s(config_of(), WeightSum::odds);
+  Search s(exact_detector(), WeightSum::odds);
   s.update({{8, 10}, {30, 25}});
   EXPECT_NEAR(s.detector.expected(), 3, 0.01);
   const auto found = s.detector.find(1);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kRatio = 100;  // L in a target's own image; 1 / L where it is missing
+constexpr double kImageRatio = 100;  // L in a target's own image; 1 / L where it is missing
 
 FollowedTargetsConfig config_of() {
   FollowedTargetsConfig c;
@@ -27,7 +27,7 @@ FollowedTargetsConfig config_of() {
 /// Targets on whole pixels that move by whole pixels a frame, without noise.
 class Follower {
  public:
-  explicit Follower(const FollowedTargetsConfig& config = config_of(), double ratio = kRatio)
+  explicit Follower(const FollowedTargetsConfig& config = config_of(), double ratio = kImageRatio)
       : ratio_(ratio), targets_(config, exact_motion(), Device::serial(), 1) {
     targets_.set_appearance(ready(exact_appearance(ratio)));
   }
@@ -81,12 +81,12 @@ TEST(FollowedTargets, ExistenceFollowsTheMeanLikelihoodRatio) {
   double n = 0.6;
   for (int k = 0; k < 4; ++k) {
     f.follow({kHere});
-    const double odds = 0.99 * n * kRatio;
+    const double odds = 0.99 * n * kImageRatio;
     n = odds / (1 + odds);
     EXPECT_NEAR(f.only().existence, n, 1e-5);
   }
   f.follow({});
-  EXPECT_NEAR(f.only().existence, 0.99 * n / kRatio / (1 + 0.99 * n / kRatio), 1e-5);
+  EXPECT_NEAR(f.only().existence, 0.99 * n / kImageRatio / (1 + 0.99 * n / kImageRatio), 1e-5);
 }
 
 TEST(FollowedTargets, MoveAtTheirVelocity) {

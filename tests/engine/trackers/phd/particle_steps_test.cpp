@@ -15,17 +15,17 @@ namespace {
 
 using namespace test;
 
-constexpr double kRatio = 30;
+constexpr double kStepRatio = 30;
 
 struct Model {
   MotionBank bank = exact_motion().bank();
-  TargetAppearance appearance = ready(exact_appearance(kRatio));
+  TargetAppearance appearance = ready(exact_appearance(kStepRatio));
   Device device = Device::serial();
   ParticleModel get() const { return {bank, appearance, device, 1}; }
 };
 
 TEST(ParticleSteps, MoveAtConstantVelocityForThatManyFrames) {
-  const auto intensity = static_cast<float>(intensity_of_ratio(kRatio));
+  const auto intensity = static_cast<float>(intensity_of_ratio(kStepRatio));
   Particles p = particles_of({{.x = 3, .y = 4, .vx = 1.5F, .vy = -2, .intensity = intensity}});
   move_particles(Model().get(), 7, 2, p);
   EXPECT_NEAR(p.x[0], 6, 1e-6);
@@ -68,27 +68,27 @@ TEST(ParticleSteps, WalkTheIntensityWithinItsRange) {
 
 // P-PHD (13): I^2 B / 2 in the target's own image, minus that in an empty frame.
 TEST(ParticleSteps, WeighByTheLikelihoodRatio) {
-  const auto intensity = static_cast<float>(intensity_of_ratio(kRatio));
+  const auto intensity = static_cast<float>(intensity_of_ratio(kStepRatio));
   const Particles p = particles_of({{.x = 20, .y = 15, .intensity = intensity},
                                     {.x = 5, .y = 5, .intensity = intensity},
                                     {.x = -1, .y = 5, .intensity = intensity}});
   std::vector<float> log_ratio(3);
-  weigh_particles(Model().get(), image_of(kRatio, {{20, 15}}), 1, p, log_ratio);
-  EXPECT_NEAR(log_ratio[0], std::log(kRatio), 1e-4);
-  EXPECT_NEAR(log_ratio[1], -std::log(kRatio), 1e-4);
+  weigh_particles(Model().get(), image_of(kStepRatio, {{20, 15}}), 1, p, log_ratio);
+  EXPECT_NEAR(log_ratio[0], std::log(kStepRatio), 1e-4);
+  EXPECT_NEAR(log_ratio[1], -std::log(kStepRatio), 1e-4);
   EXPECT_EQ(log_ratio[2], -std::numeric_limits<float>::infinity());
 }
 
 TEST(ParticleSteps, SampleTheSensorsJitter) {
   Model model;
-  AppearanceConfig config = exact_appearance(kRatio);
+  AppearanceConfig config = exact_appearance(kStepRatio);
   config.jitter = 0.3;
   model.appearance = ready(config);
-  const auto intensity = static_cast<float>(intensity_of_ratio(kRatio));
+  const auto intensity = static_cast<float>(intensity_of_ratio(kStepRatio));
   const Particles p =
       particles_of(std::vector<TestParticle>(20, {.x = 20, .y = 15, .intensity = intensity}));
   std::vector<float> now(20), again(20), next(20);
-  const Frame z = image_of(kRatio, {{20, 15}});
+  const Frame z = image_of(kStepRatio, {{20, 15}});
   weigh_particles(model.get(), z, 1, p, now);
   weigh_particles(model.get(), z, 1, p, again);
   weigh_particles(model.get(), z, 2, p, next);

@@ -13,7 +13,7 @@
 namespace glint {
 namespace {
 
-constexpr int kCount = 2000;
+constexpr int kPerTarget = 2000;
 
 TargetAppearance appearance() {
   AppearanceConfig config;
@@ -26,10 +26,10 @@ TargetAppearance appearance() {
 /// Particles about a state, all of one weight.
 Particles around(double x, double y, double vx, double vy) {
   Particles p;
-  p.resize(kCount);
+  p.resize(kPerTarget);
   const RandomKey key = random_key(9, 0, Purpose::trial);
   const auto peak = static_cast<float>(PointSpread::of(0.7).intensity_of_snr(16));
-  for (std::uint32_t i = 0; i < kCount; ++i) {
+  for (std::uint32_t i = 0; i < kPerTarget; ++i) {
     const Normals4 n = random_normals(key, i);
     p.x[i] = static_cast<float>(x) + 0.3f * n.n[0], p.y[i] = static_cast<float>(y) + 0.3f * n.n[1];
     p.vx[i] = static_cast<float>(vx) + 0.1f * n.n[2];
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> all_of(const Particles& p) {
 }
 
 TargetFilters filters_of(const MotionBank& bank) {
-  TargetFilters c(bank, kCount, Device::tbb(2), 5);
+  TargetFilters c(bank, kPerTarget, Device::tbb(2), 5);
   c.set_appearance(appearance());
   return c;
 }
@@ -118,16 +118,16 @@ TEST(TargetFilters, OutOfViewHasNoEstimate) {
   EXPECT_EQ(update.estimate.mass, 0);
 }
 
-constexpr double kRatio = 50;
+constexpr double kFilterRatio = 50;
 
 /// Particles that a target's likelihood ratio is known for, in filters of that many a target.
 TargetFilters exact_filters(int count) {
   TargetFilters f(test::exact_motion().bank(), count, Device::serial(), 5);
-  f.set_appearance(test::ready(test::exact_appearance(kRatio)));
+  f.set_appearance(test::ready(test::exact_appearance(kFilterRatio)));
   return f;
 }
 test::TestParticle exact_particle(float x, float vx = 0) {
-  const auto intensity = static_cast<float>(test::intensity_of_ratio(kRatio));
+  const auto intensity = static_cast<float>(test::intensity_of_ratio(kFilterRatio));
   return {.x = x, .y = 15, .vx = vx, .intensity = intensity};
 }
 
@@ -137,9 +137,9 @@ TEST(TargetFilters, UpdatesByTheMeanLikelihoodRatioAndTheWeightedMean) {
   TargetFilters f = exact_filters(4);
   const Particles p = test::particles_of({exact_particle(12, 1), exact_particle(30, -1)});
   f.add(p, all_of(p), 0);
-  const TargetUpdate update = f.update(test::image_of(kRatio, {{12, 15}}), 1)[0];
-  EXPECT_NEAR(update.mean_ratio, (kRatio + 1 / kRatio) / 2, 1e-2);
-  const double share = 1 / (1 + kRatio * kRatio);
+  const TargetUpdate update = f.update(test::image_of(kFilterRatio, {{12, 15}}), 1)[0];
+  EXPECT_NEAR(update.mean_ratio, (kFilterRatio + 1 / kFilterRatio) / 2, 1e-2);
+  const double share = 1 / (1 + kFilterRatio * kFilterRatio);
   EXPECT_NEAR(update.estimate.x, 12 + 18 * share, 1e-4);
   EXPECT_NEAR(update.estimate.vx, 1 - 2 * share, 1e-4);
   EXPECT_EQ(update.estimate.mass, 1);
@@ -151,12 +151,12 @@ TEST(TargetFilters, ParticlesKeepTheirPeakUnderAnotherPointSpread) {
   TargetFilters f = exact_filters(4);
   const Particles p = test::particles_of({exact_particle(12)});
   f.add(p, all_of(p), 0);
-  AppearanceConfig wider = test::exact_appearance(kRatio);
+  AppearanceConfig wider = test::exact_appearance(kFilterRatio);
   wider.psf_sigma = 1.4;
   f.set_appearance(test::ready(wider));
   // A target of one peak has an intensity in proportion to sigma^2, P-PHD (5).
   for (const float i : f.particles().intensity) {
-    EXPECT_NEAR(i, 4 * test::intensity_of_ratio(kRatio), 1e-3);
+    EXPECT_NEAR(i, 4 * test::intensity_of_ratio(kFilterRatio), 1e-3);
   }
 }
 
@@ -180,7 +180,7 @@ TEST(TargetFilters, EachTargetDrawsItsOwnRandomNumbers) {
   TargetFilters one = exact_filters(kFew), two = exact_filters(kFew);
   one.add(p, all_of(p), 0);
   two.add(one, 0), two.add(one, 0);
-  two.update(test::image_of(kRatio, {{12, 15}}), 1);
+  two.update(test::image_of(kFilterRatio, {{12, 15}}), 1);
   two.resample(1);
   const auto& x = two.particles().x;
   EXPECT_FALSE(std::equal(x.begin(), x.begin() + kFew, x.begin() + kFew));
@@ -208,7 +208,7 @@ TEST(TargetFilters, RemovingMovesTheLaterOnesUp) {
   c.remove(1);
   ASSERT_EQ(c.size(), 2u);
   EXPECT_NEAR(c.particles().x[0], 10, 2);
-  EXPECT_NEAR(c.particles().x[kCount], 30, 2);
+  EXPECT_NEAR(c.particles().x[kPerTarget], 30, 2);
 }
 
 TEST(TargetFilters, TimeTurnedRoundLeadsBackToTheStart) {

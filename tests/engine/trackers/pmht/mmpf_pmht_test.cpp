@@ -10,7 +10,7 @@
 namespace glint {
 namespace {
 
-constexpr double kVariance = 9;
+constexpr double kBankVariance = 9;
 
 Imm bank(const char* motion = "ca+singer") {
   PmhtConfig config;
@@ -19,7 +19,7 @@ Imm bank(const char* motion = "ca+singer") {
 }
 
 ParticleBank particles(int count, std::uint64_t seed = 1, const char* motion = "ca+singer") {
-  return {bank(motion), count, kVariance, seed, 1};
+  return {bank(motion), count, kBankVariance, seed, 1};
 }
 
 std::vector<PmhtCentroid> seen_at(double x, double y, std::size_t models = 2) {
@@ -27,7 +27,7 @@ std::vector<PmhtCentroid> seen_at(double x, double y, std::size_t models = 2) {
 }
 
 TEST(ParticleBank, ManyParticlesPredictAsKalmanFilters) {
-  KalmanBank exact(bank(), kVariance);
+  KalmanBank exact(bank(), kBankVariance);
   ParticleBank cloud = particles(40000);
   exact.predict(1), cloud.predict(1);
   const Gaussian<4> a = exact.state(), b = cloud.state();
@@ -38,7 +38,7 @@ TEST(ParticleBank, ManyParticlesPredictAsKalmanFilters) {
 }
 
 TEST(ParticleBank, ManyParticlesAreUpdatedAsOneKalmanFilter) {
-  KalmanBank exact(bank("ca"), kVariance);
+  KalmanBank exact(bank("ca"), kBankVariance);
   ParticleBank cloud = particles(40000, 1, "ca");
   exact.predict(1), cloud.predict(1);
   const std::vector<PmhtCentroid> whole(1, PmhtCentroid{1, {108, 45}});  // R / W is R
@@ -56,7 +56,7 @@ TEST(ParticleBank, IsTheSameFarFromTheOrigin) {
   const auto run = [](const Eigen::Vector2d& origin) {
     PmhtConfig config;
     ParticleBank cloud(pmht_bank(config, {origin + Eigen::Vector2d(24570, 50), {4, -2}, 1}), 100,
-                       kVariance, 1, 1);
+                       kBankVariance, 1, 1);
     Eigen::Vector2d maximum;
     for (int scan = 1; scan < 6; ++scan) {
       cloud.predict(1);
@@ -109,7 +109,7 @@ TEST(ParticleBank, CollapsedCloudsAreDrawnAnewAndModelsAreEquallyLikely) {
 
 TEST(ParticleBank, IsAFunctionOfSeedAndTrack) {
   const auto run = [](std::uint64_t seed, std::int64_t track) {
-    ParticleBank cloud(bank(), 50, kVariance, seed, track);
+    ParticleBank cloud(bank(), 50, kBankVariance, seed, track);
     cloud.predict(1);
     cloud.update(seen_at(104, 48), seen_at(104, 48));
     return cloud.state().mean;

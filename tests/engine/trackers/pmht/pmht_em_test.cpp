@@ -14,12 +14,12 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-constexpr double kVariance = 4;
+constexpr double kPointVariance = 4;
 constexpr PmhtOrigins kOrigins{0.9, 2e-3};
 
 double density(const Eigen::Vector2d& point, const Eigen::Vector2d& at) {
-  return std::exp(-(point - at).squaredNorm() / (2 * kVariance)) /
-         (2 * std::numbers::pi * kVariance);
+  return std::exp(-(point - at).squaredNorm() / (2 * kPointVariance)) /
+         (2 * std::numbers::pi * kPointVariance);
 }
 
 Points targets() { return {{10, 10}, {13, 11}, {8, 14}}; }
@@ -141,10 +141,10 @@ TEST(PmhtMStep, IsTheMaximumOverAllPointsByTheirShares) {
   Eigen::Matrix4d information = prior.covariance.inverse();
   Eigen::Vector4d weighted = information * prior.mean;
   for (std::size_t j = 0; j < y.size(); ++j) {
-    information += z[j] / kVariance * measured().transpose() * measured();
-    weighted += z[j] / kVariance * measured().transpose() * y[j];
+    information += z[j] / kPointVariance * measured().transpose() * measured();
+    weighted += z[j] / kPointVariance * measured().transpose() * y[j];
   }
-  const Gaussian<4> updated = pmht_update(prior, centroid[0], kVariance);
+  const Gaussian<4> updated = pmht_update(prior, centroid[0], kPointVariance);
   EXPECT_LT((updated.mean - information.inverse() * weighted).norm(), 1e-11);
   EXPECT_LT((updated.covariance - information.inverse()).norm(), 1e-11);
 }
@@ -153,19 +153,19 @@ TEST(PmhtMStep, LikelihoodOfAModelIsThatOfItsCentroidTimesItsPoints) {
   const Gaussian<4> prior = predicted({10, 10});
   const PmhtCentroid centroid{0.5, {12, 9}};
   const Eigen::Matrix2d s = measured() * prior.covariance * measured().transpose() +
-                            kVariance / 0.5 * Eigen::Matrix2d::Identity();
+                            kPointVariance / 0.5 * Eigen::Matrix2d::Identity();
   const Eigen::Vector2d v(2, -1);
   const double density =
       std::exp(-v.dot(s.inverse() * v) / 2) / (2 * std::numbers::pi * std::sqrt(s.determinant()));
-  EXPECT_NEAR(pmht_log_likelihood(prior, centroid, kVariance), std::log(0.5 * density), 1e-12);
+  EXPECT_NEAR(pmht_log_likelihood(prior, centroid, kPointVariance), std::log(0.5 * density), 1e-12);
 }
 
 TEST(PmhtMStep, WithoutPointsThePredictionStays) {
   const Gaussian<4> prior = predicted({10, 10});
-  EXPECT_EQ(pmht_update(prior, {}, kVariance).mean, prior.mean);
-  EXPECT_EQ(pmht_update(prior, {}, kVariance).covariance, prior.covariance);
-  EXPECT_LT(pmht_log_likelihood(prior, {}, kVariance),
-            pmht_log_likelihood(prior, {1, {20, 20}}, kVariance));
+  EXPECT_EQ(pmht_update(prior, {}, kPointVariance).mean, prior.mean);
+  EXPECT_EQ(pmht_update(prior, {}, kPointVariance).covariance, prior.covariance);
+  EXPECT_LT(pmht_log_likelihood(prior, {}, kPointVariance),
+            pmht_log_likelihood(prior, {1, {20, 20}}, kPointVariance));
 }
 
 /// Two targets, each with one model or two.
@@ -174,7 +174,7 @@ struct Problem {
   std::vector<PmhtMode> modes;
   std::size_t models;
   PmhtSettings settings{.origins = kOrigins,
-                        .variance = kVariance,
+                        .variance = kPointVariance,
                         .mixture = false,
                         .iterations = 50,
                         .tolerance = 1e-3};
@@ -194,10 +194,10 @@ struct Problem {
     Points at;
     em.run(settings, y, pairs, models, modes,
            [&](std::size_t mode, const PmhtCentroid& c) -> Eigen::Vector2d {
-             return measured() * pmht_update(priors[mode], c, kVariance).mean;
+             return measured() * pmht_update(priors[mode], c, kPointVariance).mean;
            });
     for (std::size_t i = 0; i < modes.size(); ++i) {
-      at.emplace_back(measured() * pmht_update(priors[i], em.last()[i], kVariance).mean);
+      at.emplace_back(measured() * pmht_update(priors[i], em.last()[i], kPointVariance).mean);
     }
     return at;
   }
