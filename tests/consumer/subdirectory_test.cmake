@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DSOURCE=... -DWORK=... -DCXX=... -DFRAMES_PROGRAM=... [-DLINK=ON] -P subdirectory_test.cmake
+# cmake -DSOURCE=... -DWORK=... -DCXX=... -DLIBRARY=... -DFRAMES_PROGRAM=... [-DWHOLE=ON]
+#   -P subdirectory_test.cmake
 # README's project with Glint fetched as a part of itself, in place of find_package: FetchContent is
 # add_subdirectory on a folder that is there. By each compiler there is and under flags of the program's
-# own the program is compiled; with LINK, by CXX, the library is built too, without optimisation, and the
-# program run.
+# own the program is compiled, linked with LIBRARY, the libglint.a of the build that the test belongs to
+# (the same sources, built once), and run. With WHOLE, by CXX, the project builds its own library, without
+# optimisation: three minutes of CPU.
 include(${SOURCE}/readme.cmake)
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -24,26 +26,32 @@ if(clang)
   list(APPEND compilers ${clang})
 endif()
 
-# configured(COMPILER FLAGS BUILD)
+# configured(COMPILER FLAGS BUILD [more options])
 function(configured compiler flags build)
   run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/readme -B ${build} -DCMAKE_CXX_COMPILER=${compiler}
-    -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${flags}")
+    -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${flags}" ${ARGN})
 endfunction()
 
+run(${FRAMES_PROGRAM} ${WORK}/frames.raw)
 foreach(compiler IN LISTS compilers)
   foreach(flags "" -march=native)
     get_filename_component(name ${compiler} NAME)
     set(build ${WORK}/${name}${flags})
     configured(${compiler} "${flags}" ${build})
     run(${ninja} -C ${build} CMakeFiles/track.dir/main.cpp.o)
-    message(STATUS "README as a subdirectory by ${name} ${flags}: compiled")
+    run(${compiler} ${build}/CMakeFiles/track.dir/main.cpp.o ${LIBRARY} -ltbb -ldl -o ${build}/track)
+    run_readme(${build} ${WORK}/frames.raw tracks)
+    if(DEFINED first AND NOT tracks STREQUAL first)
+      message(FATAL_ERROR "other tracks by ${name} ${flags}:\n${tracks}\nthan by the first:\n${first}")
+    endif()
+    set(first "${tracks}")
+    message(STATUS "README as a subdirectory by ${name} ${flags}: the same tracks")
   endforeach()
 endforeach()
 
-if(LINK)
-  configured(${CXX} -O0 ${WORK}/linked)
+if(WHOLE)
+  configured(${CXX} -O0 ${WORK}/linked -DGLINT_UNITY=ON)
   run(${ninja} -C ${WORK}/linked track)
-  run(${FRAMES_PROGRAM} ${WORK}/frames.raw)
   run_readme(${WORK}/linked ${WORK}/frames.raw tracks)
   message(STATUS "README as a subdirectory:\n${tracks}")
 endif()
