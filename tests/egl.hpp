@@ -35,4 +35,5 @@ inline std::optional<Device> egl_device() {
   if (glint::test::egl_is_waived()) GTEST_SKIP() << "NOT TESTED ON EGL: GLINT_NO_EGL=1 is set"; \
   const auto device##_or_nothing = glint::test::egl_device();                                   \
   if (!device##_or_nothing) return;                                                             \
+  /* a name cannot stand in parentheses: NOLINTNEXTLINE(bugprone-macro-parentheses) */          \
   [[maybe_unused]] const glint::Device& device = *device##_or_nothing

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/frontends/cli/frame_job.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -74,8 +76,10 @@ void refuse_what_needs_frames(const FrameJob& job) {
   const std::string& input = job.inputs.front();
   for (const std::string& tracker : job.trackers) {
     if (find_tracker(tracker).feed == Feed::frames) {
-      throw UsageError(input + ": holds points, and " + tracker +
-                       " needs frames; give frames or a tracker of points, such as imm-pda-ai");
+      throw UsageError(
+          fmt::format("{}: holds points, and {} needs frames; give frames or a tracker of "
+                      "points, such as imm-pda-ai",
+                      input, tracker));
     }
   }
   if (job.run().add_noise > 0) {

@@ -19,8 +19,10 @@ constexpr double kBorder = 60;      // [m] of clutter about the truths
 double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 std::span<const TruthPoint> boats_at(std::span<const TruthPoint> truth, std::int64_t frame) {
-  const auto [first, last] = std::ranges::equal_range(truth, frame, {}, &TruthPoint::frame);
-  return {first, last};
+  // Not std::ranges::equal_range(): clang 14 cannot compile that of g++'s library.
+  const auto earlier = [](const TruthPoint& point, std::int64_t f) { return point.frame < f; };
+  const auto first = std::lower_bound(truth.begin(), truth.end(), frame, earlier);
+  return {first, std::lower_bound(first, truth.end(), frame + 1, earlier)};
 }
 
 /// Scans as a tracker of points takes them.

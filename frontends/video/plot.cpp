@@ -78,7 +78,7 @@ void draw_legend(cv::Mat part, const std::vector<LegendEntry>& legend, const Lab
   }
 }
 
-void draw_panels(cv::Mat part, const PlotRow& row, const Labels& labels) {
+void draw_panels(const cv::Mat& part, const PlotRow& row, const Labels& labels) {
   const PlotAxes axes = axes_of(row);
   const int columns = RowLines(row).columns, panels = static_cast<int>(row.panels.size());
   for (int i = 0; i < panels; ++i) {

@@ -109,8 +109,8 @@ double draw_stroke(cv::Mat& image, cv::Point2d at, cv::Point2d to, const PlotSty
   return gone + length;
 }
 
-void draw_panel(cv::Mat part, const PlotRow& row, const PlotPanel& panel, const PlotAxes& axes,
-                const std::vector<std::string>& labels) {
+void draw_panel(const cv::Mat& part, const PlotRow& row, const PlotPanel& panel,
+                const PlotAxes& axes, const std::vector<std::string>& labels) {
   Canvas canvas{part, axes};
   draw_axes(canvas, row, panel);
   for (const PlotLine& line : panel.lines) {

@@ -26,7 +26,7 @@ double draw_stroke(cv::Mat& image, cv::Point2d at, cv::Point2d to, const PlotSty
                    double gone = 0);
 
 /// Draws a panel that fills `part`, lines in the order and style of `labels`.
-void draw_panel(cv::Mat part, const PlotRow& row, const PlotPanel& panel, const PlotAxes& axes,
-                const std::vector<std::string>& labels);
+void draw_panel(const cv::Mat& part, const PlotRow& row, const PlotPanel& panel,
+                const PlotAxes& axes, const std::vector<std::string>& labels);
 
 }  // namespace glint

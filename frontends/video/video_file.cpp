@@ -47,7 +47,7 @@ bool open_sixteen_bit(cv::VideoCapture& capture, const std::string& path) {
           "\" ! decodebin ! videoconvert ! video/x-raw,format=GRAY16_LE ! appsink sync=false",
       cv::CAP_GSTREAMER);
   if (!deep.isOpened()) return false;
-  capture = std::move(deep);
+  capture = deep;  // shares the reader
   return true;
 }
 

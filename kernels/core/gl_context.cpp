@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/kernels/core/gl_context.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -81,10 +82,9 @@ std::uint64_t memory_of(const Api& api) {
 
 bool is_software(const Egl& egl, Candidate candidate, const std::string& renderer) {
   if (candidate.device != nullptr && calls_itself_software(egl, candidate.device)) return true;
-  for (const char* name : {"llvmpipe", "softpipe", "SwiftShader", "Software Rasterizer"}) {
-    if (renderer.find(name) != std::string::npos) return true;
-  }
-  return false;
+  constexpr std::array kNames{"llvmpipe", "softpipe", "SwiftShader", "Software Rasterizer"};
+  return std::ranges::any_of(
+      kNames, [&](const char* name) { return renderer.find(name) != std::string::npos; });
 }
 
 EglDevice device_of(const Egl& egl, const Api& api, Candidate candidate, int number) {

@@ -62,7 +62,7 @@ TEST_P(Determinism, SerialDeviceRepeatsItself) {
 
 /// A context of its own on the same device.
 Device keeping(const Device& device, gl::Queue::Keeping how) {
-  const Device other = Device::egl(device.context().device().number);
+  Device other = Device::egl(device.context().device().number);
   other.context().run([&](gl::Queue& queue) { queue.set_keeping(how); });
   return other;
 }

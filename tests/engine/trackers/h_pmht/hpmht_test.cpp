@@ -142,8 +142,10 @@ TEST(HPmht, FollowsATargetAlongTheBorder) {
 
 TEST(HPmht, FollowsAHundredTargets) {
   std::vector<ScriptedTarget> targets;
-  for (int k = 0; k < 100; ++k) {
-    targets.push_back(straight(0, 16, {20.0 + k % 10 * 20, 20.0 + k / 10 * 20, 0.8, -0.6}, 20));
+  for (int row = 1; row <= 10; ++row) {
+    for (int column = 1; column <= 10; ++column) {
+      targets.push_back(straight(0, 16, {20.0 * column, 20.0 * row, 0.8, -0.6}, 20));
+    }
   }
   const Scene scene = scene_of(std::move(targets), 16, 220, 220);
   const TrackLog log = track(scene);
