@@ -33,7 +33,7 @@ Axis axis(float x, int size, const PointSpread& spread) {
     const double weight = (above - below) / 2;  // P-PHD (4), one axis
     below = above;
     if (out.pixel + k < 0 || out.pixel + k >= size) continue;
-    out.weights[static_cast<std::size_t>(k + half)] = weight;
+    out.weights.data()[half + k] = weight;
     out.energy += weight * weight;
   }
   return out;
@@ -46,10 +46,10 @@ double log_ratio(const FrameView& frame, const PointSpread& spread, float x, flo
   const int half = spread.half_width;
   double matched = 0;
   for (int l = -half; l <= half; ++l) {
-    const double row_weight = row.weights[static_cast<std::size_t>(l + half)];
+    const double row_weight = row.weights.data()[half + l];
     if (row_weight == 0) continue;
     for (int k = -half; k <= half; ++k) {
-      const double weight = row_weight * column.weights[static_cast<std::size_t>(k + half)];
+      const double weight = row_weight * column.weights.data()[half + k];
       if (weight != 0) matched += weight * frame(column.pixel + k, row.pixel + l);
     }
   }

@@ -12,13 +12,12 @@ template <class T>
 double log_ratio(const PixelLikelihood::Args& args, const ImageView<const T>& frame,
                  const std::array<double, 2 * kMaxHalfWidth + 1>& weights, int x, int y) {
   const int half = args.spread.half_width;
+  const double* const tap = weights.data() + half;  // tap[-half] to tap[half]
   double sum = 0;
   for (int l = -half; l <= half; ++l) {
     for (int k = -half; k <= half; ++k) {
       if (!frame.contains(x + k, y + l)) continue;
-      const double h = static_cast<double>(args.intensity) *
-                       weights[static_cast<std::size_t>(k + half)] *
-                       weights[static_cast<std::size_t>(l + half)];  // P-PHD (4)
+      const double h = static_cast<double>(args.intensity) * tap[k] * tap[l];  // P-PHD (4)
       const double z = (static_cast<double>(frame(x + k, y + l)) - args.offset) * args.scale;
       sum += h * z - h * h / 2;
     }

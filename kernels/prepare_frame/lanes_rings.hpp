@@ -80,6 +80,8 @@ GLINT_INLINE bool read_energies(WhitenTile& t, int y) {
     const float e = r * r * scale;
     const float clipped = e < cap ? e : cap;
     const std::int32_t known = r == r ? -1 : 0;
+    // Not lround(): e is not negative, and this becomes vectors.
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
     energy[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(clipped + 0.5f) & known);
     unknown |= ~known;
   }

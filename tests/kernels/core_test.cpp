@@ -81,7 +81,7 @@ TEST(Frame, SharesOneImage) {
 TEST(Frame, FetchesItsPixelsOnceAndOnlyForThoseWhoLook) {
   int fetched = 0;
   const Frame frame(std::make_shared<const Image<float>>(4, 3), [&] { ++fetched; });
-  const Frame other = frame;
+  const Frame other = frame;  // NOLINT(performance-unnecessary-copy-initialization): what is tested
   EXPECT_EQ(frame.for_kernels().width, 4);
   EXPECT_EQ(frame.width(), 4);
   EXPECT_EQ(fetched, 0);
