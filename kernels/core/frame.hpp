@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -87,12 +88,10 @@ class Frame {
   explicit Frame(std::shared_ptr<const Image<float>> image) : image_(std::move(image)) {}
   /// An image whose pixels are still on a device: `fetch` brings them when someone asks.
   Frame(std::shared_ptr<const Image<float>> image, std::function<void()> fetch)
-      : image_(std::move(image)), arrival_(std::make_shared<Arrival>()) {
-    arrival_->fetch = std::move(fetch);
-  }
+      : image_(std::move(image)), arrival_(std::make_shared<Arrival>(std::move(fetch))) {}
   /// From any thread. Throws what fetching throws.
   FrameView view() const {
-    if (arrival_) std::call_once(arrival_->once, arrival_->fetch);
+    if (arrival_) arrival_->await();
     return for_kernels();
   }
   /// The same pixels for kernels alone, which find them on the device: the host's may not be there.
@@ -102,9 +101,23 @@ class Frame {
   explicit operator bool() const { return image_ != nullptr; }
 
  private:
-  struct Arrival {
-    std::once_flag once;
-    std::function<void()> fetch;
+  /// Fetches once; again if that threw. std::call_once() would say it shorter, but hangs after an
+  /// exception where pthread_once() does, as under ThreadSanitizer.
+  class Arrival {
+   public:
+    explicit Arrival(std::function<void()> fetch) : fetch_(std::move(fetch)) {}
+    void await() {
+      if (here_.load(std::memory_order_acquire)) return;
+      const std::lock_guard lock(mutex_);
+      if (here_.load(std::memory_order_relaxed)) return;
+      fetch_();
+      here_.store(true, std::memory_order_release);
+    }
+
+   private:
+    std::function<void()> fetch_;
+    std::mutex mutex_;
+    std::atomic<bool> here_ = false;
   };
   std::shared_ptr<const Image<float>> image_;
   std::shared_ptr<Arrival> arrival_;
