@@ -12,7 +12,7 @@ void expect_own_bands(const char* experiment, int bands) {
   EXPECT_EQ(expect_in_bands(run_experiment(find_experiment(experiment), {}, workers)), bands);
 }
 
-TEST(PmhtTable1, EveryFigureIsInItsBand) { expect_own_bands("pmht-table1", 49); }
+TEST(PmhtTable1, EveryFigureIsInItsBand) { expect_own_bands("pmht-table1", 51); }
 TEST(PmhtMonteCarlo, EveryFigureIsInItsBand) { expect_own_bands("pmht-montecarlo", 6); }
 TEST(MmpfTableA, EveryFigureIsInItsBand) { expect_own_bands("mmpf-tableA", 12); }
 TEST(Pmht40Targets, EveryFigureIsInItsBand) { expect_own_bands("pmht-40targets", 2); }
