@@ -23,8 +23,9 @@ constexpr std::array kP{"frames.background_frames=45"sv,
                         "trackers.smc-phd.confirm_hits=5"sv};
 constexpr std::array kL{
     "trackers.mm-phd.snr_low=3.5"sv,           "trackers.mm-phd.birth_particles=8000"sv,
-    "trackers.mm-phd.target_particles=4000"sv, "trackers.smc-phd.snr_low=3.5"sv,
-    "trackers.smc-phd.birth_particles=8000"sv, "trackers.smc-phd.confirm_hits=4"sv};
+    "trackers.mm-phd.target_particles=4000"sv, "trackers.mm-phd.confirm_hits=3"sv,
+    "trackers.smc-phd.snr_low=3.5"sv,          "trackers.smc-phd.birth_particles=8000"sv,
+    "trackers.smc-phd.confirm_hits=4"sv};
 
 constexpr std::array kProfiles{
     Profile{"P", "targets that stand out of the noise, before residues of the background", kP},

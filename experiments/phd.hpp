@@ -19,4 +19,8 @@ ExperimentResult run_phd_5_2(const ExperimentOptions& options, Workers& workers)
 /// Section 5.3, every system on the same frames: tables 2 to 4, figures 7 and 8.
 ExperimentResult run_phd_5_3(const ExperimentOptions& options, Workers& workers);
 
+/// One dim target on a course of its own in each run, at 12, 6 and 3 dB, and noise alone: share of
+/// its frames with a confirmed point within 3 px, delay, false tracks. Not of a paper.
+ExperimentResult run_dim_target(const ExperimentOptions& options, Workers& workers);
+
 }  // namespace glint

@@ -51,11 +51,11 @@ std::vector<Figure> figures_of(bool banded) {
       {"OSPA, revised [px]",
        [](Run r) { return ospa_while_present(r, kRevised); },
        {},
-       band({}, 1.8)},
+       band({}, 1.2)},
       {"OSPA, online [px]",
        [](Run r) { return ospa_while_present(r, kOnline); },
        {},
-       band({}, 2.75)},
+       band({}, 2.1)},
       {"OSPA, empty frames [px]",
        [](Run r) { return ospa_while_empty(r, kRevised); },
        {},
@@ -133,7 +133,7 @@ ExperimentResult run_phd_5_2(const ExperimentOptions& options, Workers& workers)
   const std::vector<Runs> runs = run_conditions(all, options, workers, result);
   Figure gain = all[0].figures.front();
   gain.metric = "OSPA below that of one CV model [px]";
-  gain.band = Band{0.3, {}};
+  gain.band = Band{0.2, {}};
   result.rows.push_back(gain_row(all[0].name, gain, runs[0], runs[1]));
   for (std::size_t i = 0; i < all.size(); ++i) add_curves(all[i], runs[i], result);
   return result;

@@ -59,7 +59,7 @@ std::vector<Contender> contenders() {
        {31.2, 31.3, 36.3},
        at_least(92),
        at_most(5),
-       at_most(1.9)},
+       at_most(1.2)},
       {{"smc-phd", particle_settings(20) + smc_phd},
        92.7,
        0,

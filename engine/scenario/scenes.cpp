@@ -20,6 +20,7 @@ constexpr std::array kScenes{
     entry<IrClipScene>("infrared-like clip, six dim targets over clouds and ground"),
     entry<AircraftScene>("a dark aircraft before a cloudy sky: P-HPMHT section 4"),
     entry<PmhtClipScene>("fast point targets on splines and turns: P-PMHT section 4"),
+    entry<DimTargetScene>("one dim target on a course of its own for each variant"),
     entry<CrossingScene>("two targets that cross"),
     entry<NoiseScene>("white noise alone"),
 };

@@ -37,6 +37,20 @@ struct PhdArcsScene {
 void describe(FieldList& list, PhdArcsScene& config);
 Scene make_scene(const PhdArcsScene& config);
 
+/// One target in white noise that keeps its course but for a little noise, in frames 10 to 39 of
+/// 50; where it is and flies, each variant draws anew. It stays 3 px inside the frame.
+struct DimTargetScene {
+  static constexpr std::string_view kName = "dim-target";
+  int size = 64;             ///< width and height [px]
+  double snr = 6;            ///< [dB]
+  double speed = 1.5;        ///< [px/frame]
+  double manoeuvre = 0.001;  ///< variance that a frame adds to each velocity [px^2/frame^2]
+  int variant = 0;
+};
+void describe(FieldList& list, DimTargetScene& config);
+/// Throws ConfigError if no course fits into the frame.
+Scene make_scene(const DimTargetScene& config);
+
 /// An infrared-like clip after P-PMHT section 4: point targets on B-spline paths above a skyline,
 /// in grey levels.
 struct IrClipScene {

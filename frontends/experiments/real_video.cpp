@@ -43,11 +43,11 @@ struct Case {
 
 const std::array kCases{
     Case{"ir_birds_multi", "IR_BIRD_027", 0, "as it is", "P", false, {.95, {}, 1, 3.6, 20, 2.5}},
-    Case{"ir_birds_multi", "IR_BIRD_027", 53, "at SNR 3", "L", false, {.9, .2, {}, 3.3}},
-    Case{"ir_birds_multi", "IR_BIRD_027", 80, "at SNR 2", "L", false, {.72, .25, {}, 4.0}},
+    Case{"ir_birds_multi", "IR_BIRD_027", 53, "at SNR 3", "L", false, {.95, .15, {}, 3.3}},
+    Case{"ir_birds_multi", "IR_BIRD_027", 80, "at SNR 2", "L", false, {.93, .4, {}, 3.6}},
     Case{"ir_dim", "IR_BIRD_015", 0, "as it is", "P", false, {.93, {}, {}, 3.0}},
     Case{"ir_dim", "IR_BIRD_015", 4.2, "at SNR 5", "P", false, {.85, .08}},
-    Case{"ir_dim", "IR_BIRD_015", 7, "at SNR 3", "L", false, {.55, .15}},
+    Case{"ir_dim", "IR_BIRD_015", 7, "at SNR 3", "L", false, {.9, .3}},
     Case{"visible_sky", "V_BIRD_009", 3, "at SNR 5", "P", true, {.7}},
     Case{"visible_sky", "V_BIRD_009", 5, "at SNR 3", "P", true, {.45, .05}},
     Case{"ir_dim", "IR_AIRPLANE_026", 0, "as it is", "P", false, {.95, {}, .3}},

@@ -9,6 +9,9 @@ namespace {
 
 // The backward pass must not draw the same random numbers as the targets.
 constexpr std::uint64_t kBackward = std::uint64_t{0xB5} << 56;
+// Existence that a point before the detection needs: a start claimed too early costs more than one
+// frame too late.
+constexpr double kSure = 0.9;
 
 }  // namespace
 
@@ -49,38 +52,51 @@ bool BackwardPass::near_another(const Past& past, const Peak& estimate, std::uin
   });
 }
 
-void BackwardPass::trace(const FollowedTargets& targets, std::size_t t, std::int64_t now,
-                         TrackLog& log) {
-  const FollowedTarget& target = targets.targets()[t];
-  filters_.clear();
-  filters_.add(targets.filters(), t);
-  filters_.reverse_velocities();
+std::vector<BackwardPass::Earlier> BackwardPass::earlier_points(const FollowedTarget& target,
+                                                                std::int64_t now) {
+  std::vector<Earlier> points;
   std::int64_t frame = now;
-  double existence = 1;
+  double existence = 1, weight = 1;
   int misses = 0;
-  std::vector<TrackPoint> missed;  // reported only if there is a hit in an earlier frame
   for (std::size_t back = 1; back <= past_.size(); ++back) {
     const Past& past = past_[(next_ + past_.size() - back) % past_.size()];
     filters_.predict(past.at.frame, static_cast<double>(frame - past.at.frame));
     frame = past.at.frame;
     const TargetUpdate& update = filters_.update(past.z, frame)[0];
-    if (update.mean_ratio <= 0) return;
+    if (update.mean_ratio <= 0) break;
     if (frame < target.detected) {
-      const double odds = survival_ * existence * update.mean_ratio;
-      existence = odds / (1 + odds);
+      existence = bernoulli_update(existence, survival_, update.mean_ratio);
       misses = existence >= config_.existence ? 0 : misses + 1;
-      if (misses >= config_.halt_misses || near_another(past, update.estimate, target.id)) return;
+      if (misses >= config_.halt_misses || near_another(past, update.estimate, target.id)) break;
+      weight *= survival_ * update.mean_ratio;
       TrackPoint point = point_of(update.estimate, modes_, past.at);
       point.vx = -point.vx, point.vy = -point.vy;
       point.track_id = target.id, point.status = TrackStatus::confirmed;
-      point.existence = existence;
-      missed.push_back(point);
-    }
-    if (misses == 0) {
-      for (const TrackPoint& p : missed) log.revise(p);
-      missed.clear();
+      points.push_back({point, weight});
     }
     filters_.resample(frame);
+  }
+  return points;
+}
+
+void BackwardPass::trace(const FollowedTargets& targets, std::size_t t, std::int64_t now,
+                         TrackLog& log) {
+  filters_.clear();
+  filters_.add(targets.filters(), t);
+  filters_.reverse_velocities();
+  const std::vector<Earlier> points = earlier_points(targets.targets()[t], now);
+  double all = 1, later = 1, most = 1;  // of the weights; that of the frame of detection is 1
+  std::size_t start = 0;                // points from the likeliest appearance on
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    all += points[k].weight;
+    if (points[k].weight >= most) most = points[k].weight, start = k + 1;
+  }
+  for (std::size_t k = 0; k < start; ++k) {
+    TrackPoint point = points[k].point;
+    point.existence = 1 - later / all;
+    if (point.existence < kSure) return;
+    log.revise(point);
+    later += points[k].weight;
   }
 }
 

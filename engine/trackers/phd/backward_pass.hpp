@@ -22,7 +22,9 @@ class BackwardPass {
   /// FollowedTargets::follow().
   void remember(const Frame& z, const StepTime& at, std::span<const FollowedTarget> targets);
   /// Adds the points of target `t`, confirmed in frame `now`, before its detection to the revised
-  /// record. Ends at `halt_misses` misses in a row or nearer than `separation` to another track.
+  /// record, as far as the target is likely to have been there already: that probability, given
+  /// all frames looked at, is their existence. Looks until `halt_misses` misses in a row or nearer
+  /// than `separation` to another track.
   void trace(const FollowedTargets& targets, std::size_t t, std::int64_t now, TrackLog& log);
 
   template <class Self>
@@ -49,6 +51,14 @@ class BackwardPass {
       return std::tie(s.z, s.at, s.targets);
     }
   };
+  /// A point before the detection, with the likelihood of the target having appeared in its frame,
+  /// over that of having appeared when it was detected.
+  struct Earlier {
+    TrackPoint point;
+    double weight;
+  };
+  /// From the frame before the detection on, into the past.
+  std::vector<Earlier> earlier_points(const FollowedTarget& target, std::int64_t now);
   bool near_another(const Past& past, const Peak& estimate, std::uint32_t id) const;
 
   FollowedTargetsConfig config_;

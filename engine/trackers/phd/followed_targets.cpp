@@ -14,6 +14,12 @@ double distance(const Peak& a, const Peak& b) { return std::hypot(a.x - b.x, a.y
 
 }  // namespace
 
+double bernoulli_update(double existence, double survival, double ratio) {
+  if (!(ratio > 0)) return 0;
+  const double there = survival * existence;
+  return there * ratio / (1 - there + there * ratio);
+}
+
 void describe_separation(FieldList& f, FollowedTargetsConfig& c) {
   f("separation", c.separation, 0, 1000, "px",
     "no target is detected this near to a track; of two tracks the younger ends");
@@ -65,8 +71,7 @@ void FollowedTargets::update_life(FollowedTarget& target, const TargetUpdate& up
                                   std::int64_t frame) const {
   bool hit = false;
   if (config_.rule == LifeRule::existence) {
-    const double odds = survival_ * target.existence * update.mean_ratio;
-    target.existence = odds / (1 + odds);
+    target.existence = bernoulli_update(target.existence, survival_, update.mean_ratio);
     hit = target.existence >= config_.existence;
   } else {
     target.existence = std::min(1.0, target.existence * update.mean_ratio);
@@ -74,12 +79,15 @@ void FollowedTargets::update_life(FollowedTarget& target, const TargetUpdate& up
     target.ended = target.existence <= config_.miss_probability;
   }
   if (update.mean_ratio > 0) target.estimate = update.estimate;
+  const double before = target.support;
+  target.support = std::min(1.0, before * survival_ * update.mean_ratio);
+  if (before == 1 && target.support < 1) target.first_missed = frame;
   if (hit) {
     ++target.hits;
     target.misses = 0;
     return;
   }
-  if (target.misses++ == 0) target.first_missed = frame;
+  ++target.misses;
   const int patience = target.confirmed ? config_.halt_misses : 1;
   if (config_.rule == LifeRule::existence) target.ended = target.misses >= patience;
   target.ended = target.ended || update.mean_ratio <= 0;  // out of view
@@ -103,9 +111,11 @@ void FollowedTargets::report(FollowedTarget& target, const StepTime& at, TrackLo
   point.track_id = target.id;
   point.existence = target.existence;
   const bool confirmed = target.confirmed || target.hits >= config_.confirm_hits;
-  point.status = confirmed ? TrackStatus::confirmed : TrackStatus::tentative;
+  // What is not likely to be there is not said to be, whatever its past.
+  const bool likely = config_.rule != LifeRule::existence || target.existence >= config_.existence;
+  point.status = confirmed && likely ? TrackStatus::confirmed : TrackStatus::tentative;
   if (target.ended) {
-    if (target.misses > 0) log.drop(target.id, target.first_missed);
+    if (target.support < 1) log.drop(target.id, target.first_missed);
     if (!target.confirmed) return;
     point.status = TrackStatus::halted;
   }

@@ -16,8 +16,8 @@ namespace glint {
 /// When a frame counts as a hit or a miss of a target, and when its track ends. L is the mean
 /// likelihood ratio of its particles in the frame.
 enum class LifeRule {
-  existence,        ///< existence probability n_k = W L / (1 + W L), W = e n_{k-1}: a hit if it is
-                    ///< at least `existence`. P-PHD (14), (19)
+  existence,        ///< existence probability r_k, see bernoulli_update(): a hit if it is at least
+                    ///< `existence`
   likelihood_ratio  ///< S_k = min(0, S_{k-1} + ln L): a hit if S_k = 0, the end if S_k <= ln P_M.
                     ///< Boers and Driessen's test
 };
@@ -34,6 +34,12 @@ struct FollowedTargetsConfig {
   double separation = 6;           ///< no target is detected this near to a track, and of two
                                    ///< tracks this near one ends [px]
 };
+
+/// Existence probability of one target after a frame: W = survival r before it, odds W / (1 - W) L
+/// after it. `ratio`: L; 0 ends all hope. The Bernoulli filter's update. P-PHD (14), (19) have the
+/// odds W L, a PHD's, which for one target remember no frame but the last.
+double bernoulli_update(double existence, double survival, double ratio);
+
 /// Lists `separation` alone.
 void describe_separation(FieldList& f, FollowedTargetsConfig& c);
 
@@ -43,14 +49,17 @@ struct FollowedTarget {
   double existence = 1;  ///< n_k, or e^S_k
   int hits = 1, misses = 0;
   bool confirmed = false, ended = false;
-  std::int64_t detected = 0;      ///< frame of the detection, k0
-  std::int64_t first_missed = 0;  ///< frame of the first of the present misses in a row
+  std::int64_t detected = 0;  ///< frame of the detection, k0
+  /// Likelihood of having lived till now over that of having ended when it was likeliest, at
+  /// most 1.
+  double support = 1;
+  std::int64_t first_missed = 0;  ///< frame after that one
   Peak estimate;                  ///< velocity in [px/frame]
 
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.id, s.existence, s.hits, s.misses, s.confirmed, s.ended, s.detected,
-                    s.first_missed, s.estimate);
+                    s.support, s.first_missed, s.estimate);
   }
   void restored() const;
 };
@@ -64,7 +73,8 @@ class FollowedTargets {
   void set_appearance(const TargetAppearance& appearance) { filters_.set_appearance(appearance); }
 
   /// Predicts and updates all targets by the frame `z`, counts hits and misses, ends tracks, and
-  /// reports to the log. Tracks that end lose the points of their last misses there.
+  /// reports to the log. A track that ends loses its points after the frame that is the likeliest
+  /// for its end there.
   void follow(const Frame& z, const StepTime& at, TrackLog& log);
   /// Starts a track from a cluster of particles. False, and no track, if another is nearer than
   /// `separation`.

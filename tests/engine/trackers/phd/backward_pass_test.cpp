@@ -23,7 +23,7 @@ class Traced {
  public:
   explicit Traced(std::vector<int> visible) : visible_(std::move(visible)) {
     config_.target_particles = 4;
-    config_.existence = 0.2;  // a hit right after a miss reaches it
+    config_.existence = 0.6;  // one miss leaves less of it, a hit after that more
     config_.confirm_hits = 2, config_.halt_misses = 2;
   }
   /// Another track, number 7, is at these places in that frame.
@@ -110,25 +110,25 @@ TEST(BackwardPass, ReportsTheForwardVelocityInPixelsPerSecond) {
   }
 }
 
-// (14) and (19) from n = 1 at detection: n = W L / (1 + W L), W = e n.
-TEST(BackwardPass, CarriesTheExistenceBackwards) {
+// To have appeared in the frame of detection, or 1, 2, 3 frames before it, is as likely as
+// 1 : e L : (e L)^2 : (e L)^2 e / L.
+TEST(BackwardPass, GivesTheProbabilityThatTheTargetWasThereAlready) {
   const auto points = Traced({4, 5}).trace();
-  double n = 1;
-  for (const int frame : {5, 4}) {
-    const double odds = 0.99 * n * kTraceRatio;
-    n = odds / (1 + odds);
-    EXPECT_NEAR(points.at(frame).existence, n, 1e-5);
-  }
+  const double seen = 0.99 * kTraceRatio, all = 1 + seen + seen * seen * (1 + 0.99 / kTraceRatio);
+  EXPECT_EQ(frames_of(points), (Frames{4, 5}));
+  EXPECT_NEAR(points.at(5).existence, 1 - 1 / all, 1e-6);
+  EXPECT_NEAR(points.at(4).existence, 1 - (1 + seen) / all, 1e-6);
 }
 
-TEST(BackwardPass, ReportsAMissOnlyIfTheTargetIsSeenBeforeIt) {
-  EXPECT_EQ(frames_of(Traced({3, 5}).trace()), (Frames{3, 4, 5}));
+TEST(BackwardPass, ReportsAMissOnlyIfTheTargetIsSeenWellBeforeIt) {
+  EXPECT_EQ(frames_of(Traced({2, 3, 5}).trace()), (Frames{2, 3, 4, 5}));
+  EXPECT_EQ(frames_of(Traced({3, 5}).trace()), (Frames{5}));  // before frame 5 as likely as not
   EXPECT_EQ(frames_of(Traced({5}).trace()), (Frames{5}));
 }
 
 TEST(BackwardPass, EndsAtTheMissesInARowThatEndATrack) {
-  EXPECT_EQ(frames_of(Traced({2, 5}).trace()), (Frames{5}));
-  EXPECT_EQ(frames_of(Traced({1, 3, 5}).trace()), (Frames{1, 2, 3, 4, 5}));
+  EXPECT_EQ(frames_of(Traced({0, 1, 4, 5}).trace()), (Frames{4, 5}));
+  EXPECT_EQ(frames_of(Traced({0, 1, 2, 4, 5}).trace()), (Frames{0, 1, 2, 3, 4, 5}));
 }
 
 TEST(BackwardPass, EndsBeforeItRunsOverAnotherTrack) {

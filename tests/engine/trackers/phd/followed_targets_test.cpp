@@ -18,9 +18,16 @@ constexpr double kImageRatio = 100;  // L in a target's own image; 1 / L where i
 FollowedTargetsConfig config_of() {
   FollowedTargetsConfig c;
   c.target_particles = 4;
-  c.existence = 0.2;  // a hit right after a miss reaches it
+  c.existence = 0.6;  // one miss leaves less of it, a hit after that more
   c.confirm_hits = 3, c.halt_misses = 3;
   c.separation = 6;
+  return c;
+}
+
+/// A tentative track outlives its first miss.
+FollowedTargetsConfig long_patience() {
+  FollowedTargetsConfig c = config_of();
+  c.confirm_hits = 1;
   return c;
 }
 
@@ -73,7 +80,16 @@ using Frames = std::vector<std::int64_t>;
 
 constexpr Pixel kHere{10, 12};
 
-// P-PHD (14) and (19) for one target: n = W L / (1 + W L), W = e n.
+// The Bernoulli filter: odds W / (1 - W) L, W = e r.
+TEST(FollowedTargets, ABernoulliUpdateKnowsItsLimits) {
+  EXPECT_NEAR(bernoulli_update(0.5, 1, 3), 0.75, 1e-12);
+  EXPECT_NEAR(bernoulli_update(0.8, 0.5, 6), 0.8, 1e-12);  // odds 2/3 to 4
+  EXPECT_EQ(bernoulli_update(1, 1, 1e-300), 1);
+  EXPECT_EQ(bernoulli_update(0, 0.99, 1e300), 0);
+  EXPECT_EQ(bernoulli_update(1, 1, 0), 0);
+  EXPECT_NEAR(bernoulli_update(0.5, 0.99, 1e300), 1, 1e-12);
+}
+
 TEST(FollowedTargets, ExistenceFollowsTheMeanLikelihoodRatio) {
   Follower f;
   f.detect(kHere.x, kHere.y, 0, 0.6);
@@ -81,12 +97,19 @@ TEST(FollowedTargets, ExistenceFollowsTheMeanLikelihoodRatio) {
   double n = 0.6;
   for (int k = 0; k < 4; ++k) {
     f.follow({kHere});
-    const double odds = 0.99 * n * kImageRatio;
+    const double odds = 0.99 * n / (1 - 0.99 * n) * kImageRatio;
     n = odds / (1 + odds);
     EXPECT_NEAR(f.only().existence, n, 1e-5);
   }
+  // What was seen before counts: a miss of 1 to 100 against odds of 99 to 1.
+  f = Follower(long_patience());
+  f.detect(kHere.x, kHere.y);
+  f.follow({kHere});
+  n = f.only().existence;
   f.follow({});
-  EXPECT_NEAR(f.only().existence, 0.99 * n / kImageRatio / (1 + 0.99 * n / kImageRatio), 1e-5);
+  const double odds = 0.99 * n / (1 - 0.99 * n) / kImageRatio;
+  EXPECT_NEAR(odds, 0.98, 0.01);
+  EXPECT_NEAR(f.only().existence, odds / (1 + odds), 1e-5);
 }
 
 TEST(FollowedTargets, MoveAtTheirVelocity) {
@@ -132,6 +155,16 @@ Follower confirmed_target() {
   return f;
 }
 
+TEST(FollowedTargets, AreOnlySaidToBeConfirmedWhileTheyAreLikelyToBeThere) {
+  Follower f = confirmed_target();
+  f.follow({});
+  EXPECT_TRUE(f.only().confirmed);
+  EXPECT_LT(f.log().online().back().existence, 0.6);
+  EXPECT_EQ(f.log().online().back().status, TrackStatus::tentative);
+  f.follow({kHere});
+  EXPECT_EQ(f.log().online().back().status, TrackStatus::confirmed);
+}
+
 TEST(FollowedTargets, ThatAreConfirmedEndOnTheLastOfTheirMissesInARow) {
   Follower f = confirmed_target();
   f.follow({}), f.follow({});
@@ -151,15 +184,31 @@ TEST(FollowedTargets, CountTheirMissesAnewAfterAHit) {
   EXPECT_EQ(f.only().misses, 2);
 }
 
+// Where a bright target has gone, its existence needs frames to fall; the end is where the sum of
+// ln(e L) was greatest, whether those frames were hits or not.
+TEST(FollowedTargets, EndInTheRevisedRecordWhereTheyWereLikeliestToEnd) {
+  FollowedTargetsConfig config = config_of();
+  config.existence = 0.01;
+  Follower f(config, 10);  // a frame without the target leaves .09, .0098, ...
+  f.detect(kHere.x, kHere.y);
+  for (int k = 0; k < 4; ++k) f.follow({kHere});
+  for (int k = 0; k < 6 && !f.targets().empty(); ++k) f.follow({});
+  ASSERT_TRUE(f.targets().empty());
+  const std::vector<TrackPoint> online = f.log().online(), revised = f.log().revised();
+  EXPECT_GT(online.size(), revised.size() + 2);
+  EXPECT_EQ(frames_of(revised, 1), (Frames{0, 1, 2, 3, 4, online.back().frame}));
+  EXPECT_EQ(revised.back().status, TrackStatus::halted);
+}
+
 TEST(FollowedTargets, LoseThePointsOfTheirLastMissesInTheRevisedRecordOnly) {
   Follower f = confirmed_target();
-  f.follow({});  // frame 4, before a hit: stays
-  f.follow({kHere});
-  f.follow({}), f.follow({}), f.follow({});  // frames 6 to 8
+  f.follow({});  // frame 4, before two hits: stays
+  f.follow({kHere}), f.follow({kHere});
+  f.follow({}), f.follow({}), f.follow({});  // frames 7 to 9
   ASSERT_TRUE(f.targets().empty());
-  EXPECT_EQ(frames_of(f.log().revised(), 1), (Frames{0, 1, 2, 3, 4, 5, 8}));
+  EXPECT_EQ(frames_of(f.log().revised(), 1), (Frames{0, 1, 2, 3, 4, 5, 6, 9}));
   EXPECT_EQ(f.log().revised().back().status, TrackStatus::halted);
-  EXPECT_EQ(frames_of(f.log().online(), 1), (Frames{0, 1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(frames_of(f.log().online(), 1), (Frames{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
 TEST(FollowedTargets, EndOutsideTheFrameWhereTheyWereSeenLast) {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "experiments/papers/papers.hpp"
+
+namespace glint {
+namespace {
+
+// Eight runs, against bands for twenty.
+TEST(DimTarget, MmPhdFindsItAtThreeDecibelsAndNothingInNoise) {
+  EXPECT_EQ(expect_in_bands(run_of("dim-target", 8), 1, 8), 7);
+}
+
+}  // namespace
+}  // namespace glint
