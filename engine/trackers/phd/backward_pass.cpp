@@ -24,17 +24,12 @@ BackwardPass::BackwardPass(const FollowedTargetsConfig& config, const MotionConf
       // The detection lies confirm_hits - 1 frames before the confirmation.
       capacity_(frames > 0 ? static_cast<std::size_t>(frames + config.confirm_hits - 1) : 0) {}
 
-void BackwardPass::remember(const Frame& z, const StepTime& at,
-                            std::span<const FollowedTarget> targets) {
+void BackwardPass::remember(const Frame& z, const StepTime& at, std::span<const Position> tracks) {
   if (capacity_ == 0) return;
   if (past_.size() < capacity_) past_.emplace_back();
   Past& past = past_[next_];
+  past.z = z, past.at = at, past.tracks.assign(tracks.begin(), tracks.end());
   next_ = (next_ + 1) % capacity_;
-  past.z = z, past.at = at;
-  past.targets.clear();
-  for (const FollowedTarget& target : targets) {
-    past.targets.push_back({target.id, target.estimate.x, target.estimate.y});
-  }
 }
 
 void BackwardPass::restored() const {
@@ -46,16 +41,15 @@ void BackwardPass::restored() const {
 }
 
 bool BackwardPass::near_another(const Past& past, const Peak& estimate, std::uint32_t id) const {
-  return std::ranges::any_of(past.targets, [&](const Position& other) {
+  return std::ranges::any_of(past.tracks, [&](const Position& other) {
     return other.id != id &&
            std::hypot(other.x - estimate.x, other.y - estimate.y) < config_.separation;
   });
 }
 
-std::vector<BackwardPass::Earlier> BackwardPass::earlier_points(const FollowedTarget& target,
-                                                                std::int64_t now) {
+std::vector<BackwardPass::Earlier> BackwardPass::earlier_points(const Start& start) {
   std::vector<Earlier> points;
-  std::int64_t frame = now;
+  std::int64_t frame = start.now;
   double existence = 1, weight = 1;
   int misses = 0;
   for (std::size_t back = 1; back <= past_.size(); ++back) {
@@ -64,14 +58,14 @@ std::vector<BackwardPass::Earlier> BackwardPass::earlier_points(const FollowedTa
     frame = past.at.frame;
     const TargetUpdate& update = filters_.update(past.z, frame)[0];
     if (update.mean_ratio <= 0) break;
-    if (frame < target.detected) {
+    if (frame < start.detected) {
       existence = bernoulli_update(existence, survival_, update.mean_ratio);
       misses = existence >= config_.existence ? 0 : misses + 1;
-      if (misses >= config_.halt_misses || near_another(past, update.estimate, target.id)) break;
+      if (misses >= config_.halt_misses || near_another(past, update.estimate, start.id)) break;
       weight *= survival_ * update.mean_ratio;
       TrackPoint point = point_of(update.estimate, modes_, past.at);
       point.vx = -point.vx, point.vy = -point.vy;
-      point.track_id = target.id, point.status = TrackStatus::confirmed;
+      point.track_id = start.id, point.status = TrackStatus::confirmed;
       points.push_back({point, weight});
     }
     filters_.resample(frame);
@@ -79,19 +73,29 @@ std::vector<BackwardPass::Earlier> BackwardPass::earlier_points(const FollowedTa
   return points;
 }
 
-void BackwardPass::trace(const FollowedTargets& targets, std::size_t t, std::int64_t now,
+void BackwardPass::trace(const TargetFilters& targets, std::size_t t, const Start& start,
                          TrackLog& log) {
   filters_.clear();
-  filters_.add(targets.filters(), t);
+  filters_.add(targets, t);
+  trace(start, log);
+}
+
+void BackwardPass::trace(const Cluster& cluster, const Start& start, TrackLog& log) {
+  filters_.clear();
+  filters_.add(cluster.particles, cluster.members, start.now);
+  trace(start, log);
+}
+
+void BackwardPass::trace(const Start& start, TrackLog& log) {
   filters_.reverse_velocities();
-  const std::vector<Earlier> points = earlier_points(targets.targets()[t], now);
+  const std::vector<Earlier> points = earlier_points(start);
   double all = 1, later = 1, most = 1;  // of the weights; that of the frame of detection is 1
-  std::size_t start = 0;                // points from the likeliest appearance on
+  std::size_t likeliest = 0;            // points from the likeliest appearance on
   for (std::size_t k = 0; k < points.size(); ++k) {
     all += points[k].weight;
-    if (points[k].weight >= most) most = points[k].weight, start = k + 1;
+    if (points[k].weight >= most) most = points[k].weight, likeliest = k + 1;
   }
-  for (std::size_t k = 0; k < start; ++k) {
+  for (std::size_t k = 0; k < likeliest; ++k) {
     TrackPoint point = points[k].point;
     point.existence = 1 - later / all;
     if (point.existence < kSure) return;

@@ -18,22 +18,7 @@ class BackwardPass {
                const Device& device, std::uint64_t seed);
   void set_appearance(const TargetAppearance& appearance) { filters_.set_appearance(appearance); }
 
-  /// Stores a frame and the positions of the targets in it; call it after
-  /// FollowedTargets::follow().
-  void remember(const Frame& z, const StepTime& at, std::span<const FollowedTarget> targets);
-  /// Adds the points of target `t`, confirmed in frame `now`, before its detection to the revised
-  /// record, as far as the target is likely to have been there already: that probability, given
-  /// all frames looked at, is their existence. Looks until `halt_misses` misses in a row or nearer
-  /// than `separation` to another track.
-  void trace(const FollowedTargets& targets, std::size_t t, std::int64_t now, TrackLog& log);
-
-  template <class Self>
-  static auto fields(Self& s) {
-    return std::tie(s.filters_, s.past_, s.next_);
-  }
-  void restored() const;
-
- private:
+  /// Where a track is in a frame [px].
   struct Position {
     std::uint32_t id;
     double x, y;
@@ -42,13 +27,37 @@ class BackwardPass {
       return std::tie(s.id, s.x, s.y);
     }
   };
+  /// A track that is to be traced: the frame of its detection, and the one that its particles are
+  /// of.
+  struct Start {
+    std::uint32_t id;
+    std::int64_t detected, now;
+  };
+
+  /// Stores a frame and where all tracks are in it; call it once they have been reported.
+  void remember(const Frame& z, const StepTime& at, std::span<const Position> tracks);
+  /// Adds the points of target `t` before its detection to the revised record, as far as the target
+  /// is likely to have been there already: that probability, given all frames looked at, is their
+  /// existence. Looks until `halt_misses` misses in a row or nearer than `separation` to another
+  /// track.
+  void trace(const TargetFilters& targets, std::size_t t, const Start& start, TrackLog& log);
+  /// The same for a target that is a cluster of particles.
+  void trace(const Cluster& cluster, const Start& start, TrackLog& log);
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.filters_, s.past_, s.next_);
+  }
+  void restored() const;
+
+ private:
   struct Past {
     Frame z;
     StepTime at;
-    std::vector<Position> targets;
+    std::vector<Position> tracks;
     template <class Self>
     static auto fields(Self& s) {
-      return std::tie(s.z, s.at, s.targets);
+      return std::tie(s.z, s.at, s.tracks);
     }
   };
   /// A point before the detection, with the likelihood of the target having appeared in its frame,
@@ -58,7 +67,9 @@ class BackwardPass {
     double weight;
   };
   /// From the frame before the detection on, into the past.
-  std::vector<Earlier> earlier_points(const FollowedTarget& target, std::int64_t now);
+  std::vector<Earlier> earlier_points(const Start& start);
+  /// Traces the one target in filters_.
+  void trace(const Start& start, TrackLog& log);
   bool near_another(const Past& past, const Peak& estimate, std::uint32_t id) const;
 
   FollowedTargetsConfig config_;

@@ -69,6 +69,7 @@ void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32
   const auto of = [&](const Peak& p) { return members.subspan(p.first, p.last - p.first); };
   // Peaks that carry a label first: no other peak may take their tracks.
   assigned_.assign(peaks.size(), 0);
+  confirmed_now_.clear();
   const auto see = [&](Track& t, std::size_t k) {
     t.seen = true, ++t.hits, t.misses = 0;
     t.x = peaks[k].x, t.y = peaks[k].y, t.vx = peaks[k].vx, t.vy = peaks[k].vy;
@@ -82,7 +83,7 @@ void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32
     if (Track* t = lost_near(peaks[k])) {
       see(*t, k);
     } else if (!near_seen(peaks[k])) {
-      tracks_.push_back({next_id_++});
+      tracks_.push_back({next_id_++, frame});
       see(tracks_.back(), k);
     }
   }
@@ -97,7 +98,9 @@ void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32
     point.status =
         t->hits >= config_.confirm_hits ? TrackStatus::confirmed : TrackStatus::tentative;
     log.report(point);
-    if (t->hits == config_.confirm_hits) log.confirm(t->id, 0);
+    if (t->hits != config_.confirm_hits) continue;
+    log.confirm(t->id, 0);
+    confirmed_now_.push_back({t->id, t->detected, k});
   }
   halt_missing(frame, time, velocity_scale, log);
 }

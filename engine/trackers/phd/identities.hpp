@@ -35,6 +35,21 @@ class Identities {
               Particles& particles, std::int64_t frame, double time, double step,
               double velocity_scale, std::size_t modes, TrackLog& log);
 
+  /// A track that the last assign() confirmed.
+  struct Confirmed {
+    std::uint32_t id;
+    std::int64_t detected;  ///< frame of its first peak
+    std::size_t peak;       ///< its peak now, by index
+  };
+  std::span<const Confirmed> confirmed_now() const { return confirmed_now_; }
+  /// Calls f(id, x, y) for every track that has a peak in the present frame.
+  template <class F>
+  void each_seen(F&& f) const {
+    for (const Track& t : tracks_) {
+      if (t.seen) f(t.id, t.x, t.y);
+    }
+  }
+
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.tracks_, s.next_id_);
@@ -43,13 +58,14 @@ class Identities {
  private:
   struct Track {
     std::uint32_t id = 0;
+    std::int64_t detected = 0;  // frame of its first peak
     int hits = 0, misses = 0;
     bool seen = false;      // at the present frame
     double x = 0, y = 0;    // predicted to the present frame, or that of its peak there [px]
     double vx = 0, vy = 0;  // [px/frame]
     template <class Self>
     static auto fields(Self& s) {
-      return std::tie(s.id, s.hits, s.misses, s.seen, s.x, s.y, s.vx, s.vy);
+      return std::tie(s.id, s.detected, s.hits, s.misses, s.seen, s.x, s.y, s.vx, s.vy);
     }
   };
   Track* labelled(const Peak& peak, std::span<const std::uint32_t> members,
@@ -62,6 +78,7 @@ class Identities {
   std::vector<Track> tracks_;  // by rising id
   std::vector<std::pair<std::uint32_t, double>> votes_;
   std::vector<std::uint32_t> assigned_;  // by peak: its track, 0 = none
+  std::vector<Confirmed> confirmed_now_;
   std::uint32_t next_id_ = 1;
 };
 

@@ -37,8 +37,13 @@ void MmPhd::step(const Scan& scan, TrackLog& log) {
   const StepTime at = clock_.tick(scan);
   targets_.follow(scan.whitened, at, log);
   detect(scan.whitened, at, log);
-  for (const std::size_t t : targets_.confirmed_now()) backward_.trace(targets_, t, at.frame, log);
-  backward_.remember(scan.whitened, at, targets_.targets());
+  const std::span<const FollowedTarget> targets = targets_.targets();
+  for (const std::size_t t : targets_.confirmed_now()) {
+    backward_.trace(targets_.filters(), t, {targets[t].id, targets[t].detected, at.frame}, log);
+  }
+  positions_.clear();
+  for (const FollowedTarget& t : targets) positions_.push_back({t.id, t.estimate.x, t.estimate.y});
+  backward_.remember(scan.whitened, at, positions_);
 }
 
 void MmPhd::detect(const Frame& z, const StepTime& at, TrackLog& log) {

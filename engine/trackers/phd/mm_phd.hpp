@@ -42,6 +42,7 @@ class MmPhd : public TrackerOf<MmPhd> {
   Detector detector_;
   FollowedTargets targets_;
   BackwardPass backward_;
+  std::vector<BackwardPass::Position> positions_;  // of all tracks in the present frame
   StepClock clock_;
 };
 

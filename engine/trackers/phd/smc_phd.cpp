@@ -2,11 +2,25 @@
 #include "glint/engine/trackers/phd/smc_phd.hpp"
 
 #include <span>
+#include <vector>
 
 #include "glint/engine/trackers/phd/kmeans.hpp"
 #include "glint/engine/tracks/tracker_state.hpp"
 
 namespace glint {
+
+namespace {
+
+/// How a confirmed track is traced back.
+FollowedTargetsConfig traced(const SmcPhdConfig& config) {
+  FollowedTargetsConfig c;
+  c.existence = config.existence;
+  c.confirm_hits = config.identity.confirm_hits, c.halt_misses = config.identity.halt_misses;
+  c.separation = config.identity.separation;
+  return c;
+}
+
+}  // namespace
 
 SmcPhd::SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t seed)
     : config_(valid(config)),
@@ -15,12 +29,15 @@ SmcPhd::SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t s
       appearance_(config),
       filter_(config, device, seed),
       identities_(config.identity),
-      noise_(config.noise_adaptation) {}
+      noise_(config.noise_adaptation),
+      backward_(traced(config), config, config.backward_frames, device, seed) {}
 
 void SmcPhd::step(const Scan& scan, TrackLog& log) {
   if (scan.whitened.width() == 0) return;
   if (!clock_.started()) log.set_mode_names(mode_names_);
-  if (appearance_.look_at(scan)) filter_.set_appearance(appearance_);
+  if (appearance_.look_at(scan)) {
+    filter_.set_appearance(appearance_), backward_.set_appearance(appearance_);
+  }
   const StepTime at = clock_.tick(scan);
   const auto scales = noise_.fixed() ? std::span<const float>() : noise_.scales(filter_.labels());
   filter_.predict(scan.whitened, scan.frame, at.step, no_mask_, scales);
@@ -48,7 +65,24 @@ void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
   identities_.assign(found, members, particles, scan.frame, scan.time, at.step, at.velocity_scale,
                      mode_names_.size(), log);
   noise_.update(found, members, particles);
+  trace_back(scan, at, found, members, log);
   filter_.send_labels();
+}
+
+void SmcPhd::trace_back(const Scan& scan, const StepTime& at, std::span<const Peak> found,
+                        std::span<const std::uint32_t> members, TrackLog& log) {
+  if (config_.backward_frames == 0) return;
+  for (const Identities::Confirmed& track : identities_.confirmed_now()) {
+    const Peak& peak = found[track.peak];
+    const Cluster cluster{peak, filter_.particles(),
+                          members.subspan(peak.first, peak.last - peak.first)};
+    backward_.trace(cluster, {track.id, track.detected, scan.frame}, log);
+  }
+  positions_.clear();
+  identities_.each_seen([&](std::uint32_t id, double x, double y) {
+    positions_.push_back({id, x, y});
+  });
+  backward_.remember(scan.whitened, at, positions_);
 }
 
 template class TrackerOf<SmcPhd>;

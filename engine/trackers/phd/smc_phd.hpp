@@ -7,6 +7,7 @@
 
 #include "glint/engine/config.hpp"
 #include "glint/engine/trackers/phd/adaptive_noise.hpp"
+#include "glint/engine/trackers/phd/backward_pass.hpp"
 #include "glint/engine/trackers/phd/identities.hpp"
 #include "glint/engine/trackers/phd/peaks.hpp"
 #include "glint/engine/trackers/phd/phd_filter.hpp"
@@ -27,16 +28,19 @@ struct SmcPhdConfig : PhdFilterConfig {
   double cluster_radius = 0;    ///< half side of a target's box [px]; 0 = auto, half the window
   double noise_adaptation = 1;  ///< Qmax / Qmin; 1 = fixed
   IdentityConfig identity;
+  int backward_frames = 0;  ///< a confirmed track is traced back this far before its first peak
 };
 void describe(FieldList& f, SmcPhdConfig& c);
 
-/// The tracker of P-PHD section 3.2: process noise that adapts to each target (21) and resampling
-/// on the likelihood (24), with the settings of section 5.1 otherwise those of `smc-phd`.
+/// The tracker of P-PHD section 3.2: process noise that adapts to each target (21), resampling on
+/// the likelihood (24) and the backward recursion (25)-(27), with the settings of section 5.1
+/// otherwise those of `smc-phd`.
 struct SmcPhdImprovedConfig : SmcPhdConfig {
   SmcPhdImprovedConfig() {
     process_noise = 0.001;
     noise_adaptation = 50;
     resample_on = ResampleOn::likelihood;
+    backward_frames = 12;
   }
 };
 
@@ -57,11 +61,13 @@ class SmcPhd : public TrackerOf<SmcPhd> {
 
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.appearance_, s.filter_, s.identities_, s.noise_, s.clock_);
+    return std::tie(s.appearance_, s.filter_, s.identities_, s.noise_, s.backward_, s.clock_);
   }
 
  private:
   void report(const Scan& scan, const StepTime& at, TrackLog& log);
+  void trace_back(const Scan& scan, const StepTime& at, std::span<const Peak> found,
+                  std::span<const std::uint32_t> members, TrackLog& log);
 
   SmcPhdConfig config_;
   std::uint64_t seed_;
@@ -73,6 +79,8 @@ class SmcPhd : public TrackerOf<SmcPhd> {
   std::vector<std::uint32_t> kmeans_members_;
   Identities identities_;
   AdaptiveNoise noise_;
+  BackwardPass backward_;
+  std::vector<BackwardPass::Position> positions_;  // of all tracks in the present frame
   StepClock clock_;
 };
 

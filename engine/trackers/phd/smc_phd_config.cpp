@@ -13,6 +13,8 @@ void describe(FieldList& f, SmcPhdConfig& c) {
   f("noise_adaptation", c.noise_adaptation, 1, 1e6, "",
     "a target's process noise varies from process_noise to this many times it; 1 keeps it fixed");
   describe(f, c.identity);
+  f("backward_frames", c.backward_frames, 0, 1000, "frames",
+    "how far a confirmed track is traced back before its detection; 0 never");
 }
 
 }  // namespace glint

@@ -47,10 +47,17 @@ class Traced {
     const auto members = all_members(p);
     const Peak peak = describe_cluster(p, members, p.weight);
     targets.detect({peak, p, members}, at(kDetected), log);
-    backward.remember(frame(kDetected), at(kDetected), targets.targets());
+    backward.remember(frame(kDetected), at(kDetected), {});
     targets.follow(frame(kConfirmed), at(kConfirmed), log);
     EXPECT_EQ(targets.confirmed_now().size(), 1U);
-    backward.trace(targets, 0, kConfirmed, log);
+    const BackwardPass::Start start{targets.targets()[0].id, kDetected, kConfirmed};
+    if (from_cluster) {
+      const Particles& now = targets.filters().particles();
+      const auto all = all_members(now);
+      backward.trace({targets.targets()[0].estimate, now, all}, start, log);
+    } else {
+      backward.trace(targets.filters(), 0, start, log);
+    }
     std::map<std::int64_t, TrackPoint> before;
     for (const auto& point : log.revised()) {
       if (point.frame < kDetected) before[point.frame] = point;
@@ -58,6 +65,8 @@ class Traced {
     EXPECT_EQ(log.online().front().frame, kDetected);
     return before;
   }
+
+  bool from_cluster = false;  ///< start from the particles as a cluster
 
   static Pixel place(int k) { return {10 + 2 * k, 12}; }
 
@@ -67,13 +76,12 @@ class Traced {
     const bool visible = k >= kDetected || std::ranges::find(visible_, k) != visible_.end();
     return visible ? image_of(kTraceRatio, {place(k)}) : empty_frame();
   }
-  std::vector<FollowedTarget> others(int k) const {
-    std::vector<FollowedTarget> list;
+  std::vector<BackwardPass::Position> others(int k) const {
+    std::vector<BackwardPass::Position> list;
     const auto there = others_.find(k);
     if (there == others_.end()) return list;
     for (const Pixel& p : there->second) {
-      list.emplace_back();
-      list.back().id = 7, list.back().estimate.x = p.x, list.back().estimate.y = p.y;
+      list.push_back({7, static_cast<double>(p.x), static_cast<double>(p.y)});
     }
     return list;
   }
@@ -138,6 +146,18 @@ TEST(BackwardPass, EndsBeforeItRunsOverAnotherTrack) {
   far.set_others(3, {{place.x, place.y + 6}});
   EXPECT_EQ(frames_of(near.trace()), (Frames{4, 5}));
   EXPECT_EQ(frames_of(far.trace()), (Frames{2, 3, 4, 5}));
+}
+
+TEST(BackwardPass, StartsFromAClusterAsFromATargetsFilter) {
+  Traced traced({3, 4, 5});
+  const auto from_filter = traced.trace();
+  traced.from_cluster = true;
+  const auto from_cluster = traced.trace();
+  EXPECT_EQ(frames_of(from_cluster), (Frames{3, 4, 5}));
+  for (const auto& [frame, point] : from_cluster) {
+    EXPECT_NEAR(point.x, from_filter.at(frame).x, 1e-3);
+    EXPECT_NEAR(point.existence, from_filter.at(frame).existence, 1e-6);
+  }
 }
 
 TEST(BackwardPass, OfNoFramesDoesNothing) { EXPECT_TRUE(Traced({3, 4, 5}).trace(0).empty()); }

@@ -51,6 +51,7 @@ class Tracks {
     }
     return labels;
   }
+  const Identities& identities() const { return identities_; }
   TrackLog log;
 
  private:
@@ -146,6 +147,28 @@ TEST(Identities, ReportVelocityInPixelsPerSecondAndExistenceOfAtMostOne) {
   EXPECT_NEAR(points[0].vx, 75, 1e-9);
   EXPECT_NEAR(points[0].existence, 0.7, 1e-6);
   EXPECT_EQ(points[1].existence, 1);
+}
+
+TEST(Identities, TellWhichTracksAFrameConfirmedAndWhereTheyBegan) {
+  Tracks tracks({.confirm_hits = 3});
+  tracks.see({{10}});
+  EXPECT_TRUE(tracks.identities().confirmed_now().empty());
+  const TestPeak first{10, 0, {{1, 1.0F}}}, second{40, 0, {{2, 1.0F}}};
+  tracks.see({first, {40}});
+  tracks.see({second, first});  // the first track, seen in frames 0, 1 and 2, is peak 1
+  ASSERT_EQ(tracks.identities().confirmed_now().size(), 1U);
+  const Identities::Confirmed confirmed = tracks.identities().confirmed_now()[0];
+  EXPECT_EQ(confirmed.id, 1U);
+  EXPECT_EQ(confirmed.detected, 0);
+  EXPECT_EQ(confirmed.peak, 1U);
+  tracks.see({first});
+  EXPECT_TRUE(tracks.identities().confirmed_now().empty());
+  std::vector<std::uint32_t> seen;
+  tracks.identities().each_seen([&](std::uint32_t id, double x, double) {
+    seen.push_back(id);
+    EXPECT_EQ(x, 10);
+  });
+  EXPECT_EQ(seen, std::vector<std::uint32_t>{1});  // the second track is missed
 }
 
 }  // namespace

@@ -191,5 +191,43 @@ TEST(SmcPhd, FitsThePointSpreadWhenAsked) {
   EXPECT_EQ(log.at(17).size(), 2u);
 }
 
+/// First frame of track `id` among `points`.
+std::int64_t first_frame(const std::vector<TrackPoint>& points, std::int64_t id) {
+  std::int64_t first = 1000;
+  for (const TrackPoint& p : points) {
+    if (p.track_id == id) first = std::min(first, p.frame);
+  }
+  return first;
+}
+
+// Births all over the frame need frames to gather on a target: by the time that it is confirmed it
+// has long been there.
+TEST(SmcPhdImproved, FindsWhereAConfirmedTargetWasBeforeItsFirstPeak) {
+  const Scene scene = scene_of({straight(4, 30, 10, 0.8, 12, 0.5, 9)}, 30);
+  SmcPhdImprovedConfig config;
+  static_cast<PhdFilterConfig&>(config) = paper_config(9);
+  config.birth = BirthProposal::uniform, config.resample_on = ResampleOn::likelihood;
+  int earlier = 0, too_early = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    config.backward_frames = 12;
+    const TrackLog log = track(scene, config, seed).log;
+    const auto online = log.online(), revised = log.revised();
+    for (const TrackPoint& p : online) {
+      if (p.status != TrackStatus::confirmed) continue;
+      const std::int64_t from = first_frame(revised, p.track_id);
+      earlier += from < first_frame(online, p.track_id), too_early += from < 3;
+      break;
+    }
+    config.backward_frames = 0;
+    const TrackLog plain = track(scene, config, seed).log;
+    EXPECT_EQ(plain.online().size(), online.size());  // what was said at the time stays
+    for (const TrackPoint& p : plain.revised()) {
+      EXPECT_GE(p.frame, first_frame(plain.online(), p.track_id));
+    }
+  }
+  EXPECT_GE(earlier, 3);
+  EXPECT_LE(too_early, 1);
+}
+
 }  // namespace
 }  // namespace glint
