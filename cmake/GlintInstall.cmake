@@ -13,11 +13,14 @@ install(TARGETS ${libraries} EXPORT glintTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev)
 
-# lanes*.hpp are the insides of kernels: they only mean something to the builds of their own folder.
+# Not the insides of kernels (lanes*.hpp) and of the scheduler, which only mean something to the build
+# of their own folder, nor what glint_trials holds, which is not installed.
 foreach(layer kernels engine)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${layer}/
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/glint/${layer} COMPONENT dev
-    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl" PATTERN "lanes*.hpp" EXCLUDE)
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl" PATTERN "lanes*.hpp" EXCLUDE
+    PATTERN "scheduler_state.hpp" EXCLUDE PATTERN "parity.hpp" EXCLUDE PATTERN "trials.hpp" EXCLUDE
+    PATTERN "trial_images.hpp" EXCLUDE)
 endforeach()
 
 # The interface; what it takes in is above.

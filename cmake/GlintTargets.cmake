@@ -23,7 +23,7 @@ function(glint_optimise target level)
 endfunction()
 
 # glint_unity(TARGET): with GLINT_UNITY, the sources of each folder are compiled together, eight at most.
-# So names in their unnamed namespaces must differ within a folder. The folders of the kernels are left
+# So names in their unnamed namespaces must differ within a folder. A kernel's folder is left
 # out: there the same names stand for the same thing of serial, tbb and gl. Each source must still
 # compile alone, as it does without GLINT_UNITY.
 function(glint_unity target)
@@ -64,9 +64,8 @@ function(glint_lanes target name file)
     target_compile_definitions(${object} PRIVATE GLINT_LANES=lanes_${isa})
     # -O3 and no trapping or errno: what lets plain loops become vectors; none of them changes a value.
     # Sanitizers blow these loops up until -O3 takes minutes a file; -O1 checks as much in seconds.
-    # So does -O1 with the plain lanes where others exist: those are for processors from before 2013.
     set(level -O3)
-    if(CMAKE_CXX_FLAGS MATCHES "-fsanitize" OR (isa STREQUAL plain AND "v3" IN_LIST GLINT_LANES))
+    if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
       set(level -O1)
     endif()
     target_compile_options(${object} PRIVATE ${GLINT_LANES_FLAGS_${isa}}

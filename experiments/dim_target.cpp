@@ -68,6 +68,7 @@ double tracks_in_noise(const char* tracker, std::uint64_t seed) {
 ExperimentRow row_of(const std::string& name, const char* metric, double DimRun::*of,
                      const std::vector<DimRun>& runs, std::optional<Band> band = {}) {
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const DimRun& run : runs) values.push_back(run.*of);
   return value_row(name, metric, values, band);
 }

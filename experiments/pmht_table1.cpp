@@ -86,7 +86,8 @@ std::vector<Line> lines() {
        {2.2849, kNone, 3.4328, 3.1441, 3.3201, 3.6560},
        {},
        0,
-       Band{{}, 4}},
+       Band{{}, 2.5}},
+      // Two levels of noise are no substitute for two models: the figure must tell them apart.
       {"rounded, .02 %, pmht-homothetic", "ca+ca", own, 0, 0.02, {}, {}, 0, Band{3, {}}},
       {"rounded, .03 %, mixture",
        two,

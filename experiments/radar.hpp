@@ -20,9 +20,13 @@ struct RangeAzimuthElevation {
   }
 };
 
+/// Range [length], azimuth and elevation [rad] of a target at `position`, without noise.
 Eigen::Vector3d expected_measurement(const RangeAzimuthElevation& sensor,
                                      const Eigen::Vector3d& position);
+/// Derivative of the measurement by the position. Finite everywhere: at the sensor, and straight
+/// above it, as if 1e-9 of the range's noise away.
 Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vector3d& position);
+/// The position that a measurement belongs to, with its covariance to first order in the noise.
 Gaussian<3> inverse_measurement(const RangeAzimuthElevation& sensor,
                                 const Eigen::Vector3d& measurement);
 

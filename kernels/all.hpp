@@ -11,7 +11,7 @@ struct KernelEntry {
   bool on_egl = false;  ///< else an egl device runs it on tbb
 };
 
-/// The one list of kernels: parity tests, `glint parity` and benchmarks run over it.
+/// All kernels (kernel_types.hpp): parity tests, `glint parity` and benchmarks run over them.
 std::span<const KernelEntry> all_kernels();
 
 }  // namespace glint

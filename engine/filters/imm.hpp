@@ -93,6 +93,7 @@ class ImmOf {
   Modes modes_;
 };
 
+// Whoever needs another number of axes instantiates it in one unit, with imm_steps.hpp.
 extern template class ImmOf<2>;
 using Imm = ImmOf<2>;
 

@@ -54,8 +54,9 @@ std::vector<Kinematics> course_inside(const DimTargetScene& config) {
     if (inside(frames, config.size)) return frames;
   }
   throw ConfigError(
-      "scenes.dim-target: no course of 30 frames at this speed stays inside the frame; "
-      "lower speed or raise size");
+      "scenes.dim-target: no course of 30 frames at this speed and manoeuvre stays inside the "
+      "frame; "
+      "lower them or raise size");
 }
 
 }  // namespace

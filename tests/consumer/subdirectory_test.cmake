@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DSOURCE=... -DWORK=... -DCXX=... -DLIBRARY=... -DFRAMES_PROGRAM=... [-DWHOLE=ON]
+# cmake -DSOURCE=... -DWORK=... -DCXX=... -DLIBRARY=... -DTBB=... -DFRAMES_PROGRAM=... [-DWHOLE=ON]
 #   -P subdirectory_test.cmake
 # README's project with Glint fetched as a part of itself, in place of find_package: FetchContent is
 # add_subdirectory on a folder that is there. By each compiler there is and under flags of the program's
 # own the program is compiled, linked with LIBRARY, the libglint.a of the build that the test belongs to
-# (the same sources, built once), and run. With WHOLE, by CXX, the project builds its own library, without
+# (the same sources, built once) and TBB, and run. With WHOLE, by CXX, the project builds its own library, without
 # optimisation: three minutes of CPU.
 include(${SOURCE}/readme.cmake)
 function(run)
@@ -39,7 +39,7 @@ foreach(compiler IN LISTS compilers)
     set(build ${WORK}/${name}${flags})
     configured(${compiler} "${flags}" ${build})
     run(${ninja} -C ${build} CMakeFiles/track.dir/main.cpp.o)
-    run(${compiler} ${build}/CMakeFiles/track.dir/main.cpp.o ${LIBRARY} -ltbb -ldl -o ${build}/track)
+    run(${compiler} ${build}/CMakeFiles/track.dir/main.cpp.o ${LIBRARY} ${TBB} -ldl -pthread -o ${build}/track)
     run_readme(${build} ${WORK}/frames.raw tracks)
     if(DEFINED first AND NOT tracks STREQUAL first)
       message(FATAL_ERROR "other tracks by ${name} ${flags}:\n${tracks}\nthan by the first:\n${first}")
@@ -50,7 +50,7 @@ foreach(compiler IN LISTS compilers)
 endforeach()
 
 if(WHOLE)
-  configured(${CXX} -O0 ${WORK}/linked -DGLINT_UNITY=ON)
+  configured(${CXX} -O0 ${WORK}/linked)
   run(${ninja} -C ${WORK}/linked track)
   run_readme(${WORK}/linked ${WORK}/frames.raw tracks)
   message(STATUS "README as a subdirectory:\n${tracks}")

@@ -50,23 +50,25 @@ bool BackwardPass::near_another(const Past& past, const Peak& estimate, std::uin
 std::vector<BackwardPass::Earlier> BackwardPass::earlier_points(const Start& start) {
   std::vector<Earlier> points;
   std::int64_t frame = start.now;
-  double existence = 1, weight = 1;
+  double existence = 1, log_weight = 0;
   int misses = 0;
   for (std::size_t back = 1; back <= past_.size(); ++back) {
     const Past& past = past_[(next_ + past_.size() - back) % past_.size()];
-    filters_.predict(past.at.frame, static_cast<double>(frame - past.at.frame));
+    const auto step = static_cast<double>(frame - past.at.frame);
+    filters_.predict(past.at.frame, step);
     frame = past.at.frame;
     const TargetUpdate& update = filters_.update(past.z, frame)[0];
     if (update.mean_ratio <= 0) break;
     if (frame < start.detected) {
-      existence = bernoulli_update(existence, survival_, update.mean_ratio);
+      const double survival = std::pow(survival_, step);
+      existence = bernoulli_update(existence, survival, update.mean_ratio);
       misses = existence >= config_.existence ? 0 : misses + 1;
       if (misses >= config_.halt_misses || near_another(past, update.estimate, start.id)) break;
-      weight *= survival_ * update.mean_ratio;
+      log_weight += std::log(survival * update.mean_ratio);
       TrackPoint point = point_of(update.estimate, modes_, past.at);
       point.vx = -point.vx, point.vy = -point.vy;
       point.track_id = start.id, point.status = TrackStatus::confirmed;
-      points.push_back({point, weight});
+      points.push_back({point, log_weight});
     }
     filters_.resample(frame);
   }
@@ -89,18 +91,19 @@ void BackwardPass::trace(const Cluster& cluster, const Start& start, TrackLog& l
 void BackwardPass::trace(const Start& start, TrackLog& log) {
   filters_.reverse_velocities();
   const std::vector<Earlier> points = earlier_points(start);
-  double all = 1, later = 1, most = 1;  // of the weights; that of the frame of detection is 1
-  std::size_t likeliest = 0;            // points from the likeliest appearance on
+  double most = 0;            // of the logarithms; that of the frame of detection is 0
+  std::size_t likeliest = 0;  // points from the likeliest appearance on
   for (std::size_t k = 0; k < points.size(); ++k) {
-    all += points[k].weight;
-    if (points[k].weight >= most) most = points[k].weight, likeliest = k + 1;
+    if (points[k].log_weight >= most) most = points[k].log_weight, likeliest = k + 1;
   }
+  double all = std::exp(-most), later = all;  // in units of the greatest
+  for (const Earlier& earlier : points) all += std::exp(earlier.log_weight - most);
   for (std::size_t k = 0; k < likeliest; ++k) {
     TrackPoint point = points[k].point;
     point.existence = 1 - later / all;
     if (point.existence < kSure) return;
     log.revise(point);
-    later += points[k].weight;
+    later += std::exp(points[k].log_weight - most);
   }
 }
 

@@ -60,11 +60,11 @@ class BackwardPass {
       return std::tie(s.z, s.at, s.tracks);
     }
   };
-  /// A point before the detection, with the likelihood of the target having appeared in its frame,
-  /// over that of having appeared when it was detected.
+  /// A point before the detection, and how likely the target is to have appeared in its frame, over
+  /// having appeared when it was detected.
   struct Earlier {
     TrackPoint point;
-    double weight;
+    double log_weight;
   };
   /// From the frame before the detection on, into the past.
   std::vector<Earlier> earlier_points(const Start& start);

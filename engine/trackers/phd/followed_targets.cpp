@@ -16,7 +16,9 @@ double distance(const Peak& a, const Peak& b) { return std::hypot(a.x - b.x, a.y
 
 double bernoulli_update(double existence, double survival, double ratio) {
   if (!(ratio > 0)) return 0;
-  const double there = survival * existence;
+  // Neither certain nor impossible, or no frame could change it any more.
+  constexpr double kLeast = 1e-100, kMost = 1 - 1e-6;
+  const double there = std::clamp(survival * existence, kLeast, kMost);
   return there * ratio / (1 - there + there * ratio);
 }
 
@@ -39,6 +41,8 @@ void FollowedTarget::restored() const {
   require_bytes(std::abs(estimate.x) < kFar && std::abs(estimate.y) < kFar,
                 "a target is too far away");
   require_frame_number(detected), require_frame_number(first_missed);
+  require_bytes(existence >= 0 && existence <= 1 && support >= 0 && support <= 1,
+                "a target has no such probability");
   require_bytes(hits >= 0 && hits < kMany && misses >= 0 && misses < kMany,
                 "a target has no such number of hits or misses");
 }
@@ -51,7 +55,7 @@ void FollowedTargets::follow(const Frame& z, const StepTime& at, TrackLog& log) 
   confirmed_now_.clear();
   filters_.predict(at.frame, at.step);
   const std::span<const TargetUpdate> updates = filters_.update(z, at.frame);
-  for (std::size_t t = 0; t < targets_.size(); ++t) update_life(targets_[t], updates[t], at.frame);
+  for (std::size_t t = 0; t < targets_.size(); ++t) update_life(targets_[t], updates[t], at);
   end_duplicates();
   for (FollowedTarget& target : targets_) report(target, at, log);
   filters_.resample(at.frame);
@@ -67,11 +71,23 @@ void FollowedTargets::confirm(std::size_t t, TrackLog& log) {
   log.confirm(target.id, target.detected);
 }
 
+void FollowedTargets::note_support(FollowedTarget& target, double survival, double ratio,
+                                   std::int64_t frame) const {
+  constexpr double kLeast = 1e-100;  // so that a target that comes back can win it back
+  const bool at_its_best = target.support == 1;
+  // The ratio test has no survival: its S is the logarithm of this.
+  if (config_.rule == LifeRule::likelihood_ratio) survival = 1;
+  target.support = std::clamp(target.support * survival * ratio, kLeast, 1.0);
+  if (at_its_best && target.support < 1) target.first_missed = frame;
+  target.recovered = !at_its_best && target.support == 1;
+}
+
 void FollowedTargets::update_life(FollowedTarget& target, const TargetUpdate& update,
-                                  std::int64_t frame) const {
+                                  const StepTime& at) const {
+  const double survival = std::pow(survival_, at.step);
   bool hit = false;
   if (config_.rule == LifeRule::existence) {
-    target.existence = bernoulli_update(target.existence, survival_, update.mean_ratio);
+    target.existence = bernoulli_update(target.existence, survival, update.mean_ratio);
     hit = target.existence >= config_.existence;
   } else {
     target.existence = std::min(1.0, target.existence * update.mean_ratio);
@@ -79,9 +95,7 @@ void FollowedTargets::update_life(FollowedTarget& target, const TargetUpdate& up
     target.ended = target.existence <= config_.miss_probability;
   }
   if (update.mean_ratio > 0) target.estimate = update.estimate;
-  const double before = target.support;
-  target.support = std::min(1.0, before * survival_ * update.mean_ratio);
-  if (before == 1 && target.support < 1) target.first_missed = frame;
+  note_support(target, survival, update.mean_ratio, at.frame);
   if (hit) {
     ++target.hits;
     target.misses = 0;
@@ -114,6 +128,8 @@ void FollowedTargets::report(FollowedTarget& target, const StepTime& at, TrackLo
   // What is not likely to be there is not said to be, whatever its past.
   const bool likely = config_.rule != LifeRule::existence || target.existence >= config_.existence;
   point.status = confirmed && likely ? TrackStatus::confirmed : TrackStatus::tentative;
+  // It is likelier to live than to have ended before: then it was there in the frames between, too.
+  if (confirmed && target.recovered) log.confirm(target.id, target.first_missed);
   if (target.ended) {
     if (target.support < 1) log.drop(target.id, target.first_missed);
     if (!target.confirmed) return;

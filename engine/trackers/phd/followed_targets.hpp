@@ -26,7 +26,7 @@ enum class LifeRule {
 struct FollowedTargetsConfig {
   LifeRule rule = LifeRule::existence;
   int target_particles = 1500;     ///< of each target
-  double existence = 0.5;          ///< least n_k of a hit
+  double existence = 0.5;          ///< least r_k of a hit
   int confirm_hits = 5;            ///< hits to be confirmed; the detection is the first
   int halt_misses = 3;             ///< misses in a row that end a confirmed track (a tentative one
                                    ///< ends on its first); rule `existence` only
@@ -37,7 +37,7 @@ struct FollowedTargetsConfig {
 
 /// Existence probability of one target after a frame: W = survival r before it, odds W / (1 - W) L
 /// after it. `ratio`: L; 0 ends all hope. The Bernoulli filter's update. P-PHD (14), (19) have the
-/// odds W L, a PHD's, which for one target remember no frame but the last.
+/// odds W L, a PHD's: with r at most 1 they forget by how much a target was seen before.
 double bernoulli_update(double existence, double survival, double ratio);
 
 /// Lists `separation` alone.
@@ -46,7 +46,7 @@ void describe_separation(FieldList& f, FollowedTargetsConfig& c);
 /// A target with a track.
 struct FollowedTarget {
   std::uint32_t id = 0;
-  double existence = 1;  ///< n_k, or e^S_k
+  double existence = 1;  ///< r_k, or e^S_k
   int hits = 1, misses = 0;
   bool confirmed = false, ended = false;
   std::int64_t detected = 0;  ///< frame of the detection, k0
@@ -54,6 +54,7 @@ struct FollowedTarget {
   /// most 1.
   double support = 1;
   std::int64_t first_missed = 0;  ///< frame after that one
+  bool recovered = false;         ///< by this frame, from support below 1
   Peak estimate;                  ///< velocity in [px/frame]
 
   template <class Self>
@@ -92,7 +93,9 @@ class FollowedTargets {
   void restored() const;
 
  private:
-  void update_life(FollowedTarget& target, const TargetUpdate& update, std::int64_t frame) const;
+  void update_life(FollowedTarget& target, const TargetUpdate& update, const StepTime& at) const;
+  void note_support(FollowedTarget& target, double survival, double ratio,
+                    std::int64_t frame) const;
   void end_duplicates();
   void report(FollowedTarget& target, const StepTime& at, TrackLog& log);
   void remove_ended();

@@ -7,12 +7,14 @@ namespace glint {
 
 void describe(FieldList& f, MmPhdConfig& c) {
   describe(f, static_cast<PhdFilterConfig&>(c));
-  f("existence", c.existence, 0.01, 1, "", "least existence probability of a target that is seen");
+  f("existence", c.existence, 0.01, 1, "",
+    "a frame with at least this existence probability is a hit, and with less a miss, in which the "
+    "track is tentative; and the least mass of a peak");
   describe_found_target(f, c, c);
   f("confirm_hits", c.confirm_hits, 1, 1000, "frames",
-    "a track is confirmed when seen this often, the detection included");
+    "a track is confirmed with this many hits, the detection included");
   f("halt_misses", c.halt_misses, 1, 1000, "frames",
-    "missed this often in a row, a confirmed track ends; a tentative one does at once");
+    "with this many misses in a row a confirmed track ends; a tentative one does at once");
   describe_separation(f, c);
   f("backward_frames", c.backward_frames, 0, 1000, "frames",
     "how far a confirmed track is traced back before its detection; 0 never");

@@ -76,7 +76,7 @@ TEST(DimTarget, ThatNoFrameHoldsIsAnErrorWithTheRemedy) {
     make_scene(config);
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_NE(std::string(error.what()).find("lower speed or raise size"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("lower them or raise size"), std::string::npos);
   }
 }
 

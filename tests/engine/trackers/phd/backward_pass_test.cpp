@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -15,9 +16,7 @@ namespace {
 using namespace test;
 
 constexpr double kTraceRatio = 100;
-constexpr int kDetected = 6, kConfirmed = 7;  // frames
-
-/// A target that moves 2 px a frame to the right is detected in frame 6 and confirmed in frame 7.
+/// A target that moves 2 px a frame to the right is detected in frame 6 and confirmed in the next.
 /// The frames before show it in those of `visible`.
 class Traced {
  public:
@@ -31,26 +30,26 @@ class Traced {
 
   /// The points before detection in the revised record, by frame.
   std::map<std::int64_t, TrackPoint> trace(int backward_frames = 6) {
-    const TargetAppearance appearance = ready(exact_appearance(kTraceRatio));
+    const TargetAppearance appearance = ready(exact_appearance(ratio));
     FollowedTargets targets(config_, exact_motion(), Device::serial(), 1);
     BackwardPass backward(config_, exact_motion(), backward_frames, Device::serial(), 1);
     targets.set_appearance(appearance), backward.set_appearance(appearance);
     TrackLog log;
-    for (int k = 0; k < kDetected; ++k) {
+    for (int k = 0; k < detected; ++k) {
       backward.remember(frame(k), at(k), others(k));
     }
     const Particles p =
-        particles_of({{.x = static_cast<float>(place(kDetected).x),
+        particles_of({{.x = static_cast<float>(place(detected).x),
                        .y = 12,
                        .vx = 2,
-                       .intensity = static_cast<float>(intensity_of_ratio(kTraceRatio))}});
+                       .intensity = static_cast<float>(intensity_of_ratio(ratio))}});
     const auto members = all_members(p);
     const Peak peak = describe_cluster(p, members, p.weight);
-    targets.detect({peak, p, members}, at(kDetected), log);
-    backward.remember(frame(kDetected), at(kDetected), {});
-    targets.follow(frame(kConfirmed), at(kConfirmed), log);
+    targets.detect({peak, p, members}, at(detected), log);
+    backward.remember(frame(detected), at(detected), {});
+    targets.follow(frame(detected + 1), at(detected + 1), log);
     EXPECT_EQ(targets.confirmed_now().size(), 1U);
-    const BackwardPass::Start start{targets.targets()[0].id, kDetected, kConfirmed};
+    const BackwardPass::Start start{targets.targets()[0].id, detected, detected + 1};
     if (from_cluster) {
       const Particles& now = targets.filters().particles();
       const auto all = all_members(now);
@@ -60,21 +59,23 @@ class Traced {
     }
     std::map<std::int64_t, TrackPoint> before;
     for (const auto& point : log.revised()) {
-      if (point.frame < kDetected) before[point.frame] = point;
+      if (point.frame < detected) before[point.frame] = point;
     }
-    EXPECT_EQ(log.online().front().frame, kDetected);
+    EXPECT_EQ(log.online().front().frame, detected);
     return before;
   }
 
-  bool from_cluster = false;  ///< start from the particles as a cluster
+  int detected = 6;            ///< frame
+  bool from_cluster = false;   ///< start from the particles as a cluster
+  double ratio = kTraceRatio;  ///< L in the target's image
 
   static Pixel place(int k) { return {10 + 2 * k, 12}; }
 
  private:
   static StepTime at(int k) { return {k, k * 0.5, 1, 2}; }  // two frames a second
   Frame frame(int k) const {
-    const bool visible = k >= kDetected || std::ranges::find(visible_, k) != visible_.end();
-    return visible ? image_of(kTraceRatio, {place(k)}) : empty_frame();
+    const bool visible = k >= detected || std::ranges::find(visible_, k) != visible_.end();
+    return visible ? image_of(ratio, {place(k)}) : empty_frame();
   }
   std::vector<BackwardPass::Position> others(int k) const {
     std::vector<BackwardPass::Position> list;
@@ -157,6 +158,17 @@ TEST(BackwardPass, StartsFromAClusterAsFromATargetsFilter) {
   for (const auto& [frame, point] : from_cluster) {
     EXPECT_NEAR(point.x, from_filter.at(frame).x, 1e-3);
     EXPECT_NEAR(point.existence, from_filter.at(frame).existence, 1e-6);
+  }
+}
+
+// Twelve frames of e^70 each are beyond what a double holds.
+TEST(BackwardPass, StatesProbabilitiesOfVeryBrightTargets) {
+  Traced bright({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+  bright.detected = 12, bright.ratio = std::exp(70);
+  const auto points = bright.trace(12);
+  EXPECT_EQ(points.size(), 12U);
+  for (const auto& [frame, point] : points) {
+    EXPECT_TRUE(point.existence > 0.9 && point.existence <= 1) << frame << ' ' << point.existence;
   }
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "engine/trackers/phd/few_particles.hpp"
@@ -52,8 +54,11 @@ class Follower {
   /// The next frame, which shows targets at these pixels.
   void follow(const std::vector<Pixel>& visible) {
     ++at_.frame, at_.time += 1;
+    at_.step = 1 + std::exchange(skipped_, 0);
     targets_.follow(image_of(ratio_, visible), at_, log_);
   }
+  /// Frames that are not looked at.
+  void skip(int frames) { at_.frame += frames, at_.time += frames, skipped_ = frames; }
   std::span<const FollowedTarget> targets() const { return targets_.targets(); }
   const FollowedTarget& only() const { return targets_.targets().front(); }
   std::vector<std::size_t> confirmed_now() const {
@@ -66,6 +71,7 @@ class Follower {
   FollowedTargets targets_;
   TrackLog log_;
   StepTime at_;
+  int skipped_ = 0;
 };
 
 std::vector<std::int64_t> frames_of(const std::vector<TrackPoint>& points, std::int64_t track) {
@@ -84,9 +90,11 @@ constexpr Pixel kHere{10, 12};
 TEST(FollowedTargets, ABernoulliUpdateKnowsItsLimits) {
   EXPECT_NEAR(bernoulli_update(0.5, 1, 3), 0.75, 1e-12);
   EXPECT_NEAR(bernoulli_update(0.8, 0.5, 6), 0.8, 1e-12);  // odds 2/3 to 4
-  EXPECT_EQ(bernoulli_update(1, 1, 1e-300), 1);
-  EXPECT_EQ(bernoulli_update(0, 0.99, 1e300), 0);
   EXPECT_EQ(bernoulli_update(1, 1, 0), 0);
+  // Certain of nothing: also a target that cannot die ends, and one given up can come back.
+  EXPECT_LT(bernoulli_update(1, 1, 1e-9), 0.01);
+  EXPECT_NEAR(bernoulli_update(0, 0.99, 1e80), 0, 1e-12);
+  EXPECT_GT(bernoulli_update(bernoulli_update(1, 0.99, 1e-300), 0.99, 1e300), 0.9);
   EXPECT_NEAR(bernoulli_update(0.5, 0.99, 1e300), 1, 1e-12);
 }
 
@@ -204,6 +212,10 @@ TEST(FollowedTargets, LoseThePointsOfTheirLastMissesInTheRevisedRecordOnly) {
   Follower f = confirmed_target();
   f.follow({});  // frame 4, before two hits: stays
   f.follow({kHere}), f.follow({kHere});
+  for (const TrackPoint& p : f.log().revised()) {
+    EXPECT_EQ(p.status, TrackStatus::confirmed) << p.frame;  // it was there in frame 4, too
+  }
+  EXPECT_EQ(f.log().online()[4].status, TrackStatus::tentative);
   f.follow({}), f.follow({}), f.follow({});  // frames 7 to 9
   ASSERT_TRUE(f.targets().empty());
   EXPECT_EQ(frames_of(f.log().revised(), 1), (Frames{0, 1, 2, 3, 4, 5, 6, 9}));
@@ -286,6 +298,18 @@ TEST(FollowedTargets, OfTheRatioTestEndAtTheProbabilityOfAMiss) {
   ASSERT_EQ(f.targets().size(), 1U);
   f.follow({});  // 1 / 64 < .05
   EXPECT_TRUE(f.targets().empty());
+  // Frames 2 and 3 were misses that three hits made good; 7 to 9 are the last misses.
+  EXPECT_EQ(frames_of(f.log().revised(), 1), (Frames{0, 1, 2, 3, 4, 5, 6, 9}));
+}
+
+TEST(FollowedTargets, SurviveEachFrameThatASkippedOneStandsFor) {
+  Follower f(long_patience());
+  f.detect(kHere.x, kHere.y, 0, 0.6);
+  f.skip(9);
+  f.follow({kHere});
+  const double there = std::pow(0.99, 10) * 0.6;
+  const double odds = there / (1 - there) * kImageRatio;
+  EXPECT_NEAR(f.only().existence, odds / (1 + odds), 1e-5);
 }
 
 }  // namespace
