@@ -160,7 +160,7 @@ ExperimentRow backward_gain(const Condition& condition, const Runs& runs) {
   const Summary s = summarise(gains);
   const double error = s.spread / std::sqrt(static_cast<double>(gains.size()));
   return value_row(condition.title(), "revised below online, less 2 standard errors [px]",
-                   {s.mean - 2 * error}, Band{0, {}});
+                   {s.mean - 2 * error}, Band{0.05, {}});
 }
 
 }  // namespace

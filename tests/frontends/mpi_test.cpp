@@ -35,7 +35,7 @@ TEST(Mpi, TellsOfItsProgressOnce) {
   const Folder folder;
   const test::Result three =
       test::glint(folder, "experiment jpda-coalescence --runs 8" + kShare, kThree);
-  const std::string last = "40 of 40 runs\n";
+  const std::string last = "80 of 80 runs\n";
   const std::size_t at = three.err.find(last);
   ASSERT_NE(at, std::string::npos) << three.err;
   EXPECT_EQ(three.err.find(last, at + 1), std::string::npos) << three.err;
