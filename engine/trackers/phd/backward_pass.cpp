@@ -91,19 +91,16 @@ void BackwardPass::trace(const Cluster& cluster, const Start& start, TrackLog& l
 void BackwardPass::trace(const Start& start, TrackLog& log) {
   filters_.reverse_velocities();
   const std::vector<Earlier> points = earlier_points(start);
-  double most = 0;            // of the logarithms; that of the frame of detection is 0
-  std::size_t likeliest = 0;  // points from the likeliest appearance on
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].log_weight >= most) most = points[k].log_weight, likeliest = k + 1;
-  }
+  double most = 0;  // of the logarithms; that of the frame of detection is 0
+  for (const Earlier& earlier : points) most = std::max(most, earlier.log_weight);
   double all = std::exp(-most), later = all;  // in units of the greatest
   for (const Earlier& earlier : points) all += std::exp(earlier.log_weight - most);
-  for (std::size_t k = 0; k < likeliest; ++k) {
-    TrackPoint point = points[k].point;
+  for (const Earlier& earlier : points) {
+    TrackPoint point = earlier.point;
     point.existence = 1 - later / all;
     if (point.existence < kSure) return;
     log.revise(point);
-    later += std::exp(points[k].log_weight - most);
+    later += std::exp(earlier.log_weight - most);
   }
 }
 

@@ -149,6 +149,13 @@ TEST(BackwardPass, EndsBeforeItRunsOverAnotherTrack) {
   EXPECT_EQ(frames_of(far.trace()), (Frames{2, 3, 4, 5}));
 }
 
+// 1 : 3.96 : 15.7 : 3.9 : .96; the likeliest start is frame 4, but with .8 only.
+TEST(BackwardPass, ReportsOnlyWhatIsSure) {
+  Traced faint({4, 5});
+  faint.ratio = 4;
+  EXPECT_EQ(frames_of(faint.trace()), (Frames{5}));
+}
+
 TEST(BackwardPass, StartsFromAClusterAsFromATargetsFilter) {
   Traced traced({3, 4, 5});
   const auto from_filter = traced.trace();

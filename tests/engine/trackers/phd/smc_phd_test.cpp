@@ -229,5 +229,33 @@ TEST(SmcPhdImproved, FindsWhereAConfirmedTargetWasBeforeItsFirstPeak) {
   EXPECT_LE(too_early, 1);
 }
 
+// Each track from its own particles: what is added lies on the target that the track follows.
+TEST(SmcPhdImproved, TracesEachTargetFromItsOwnPeak) {
+  const Scene scene =
+      scene_of({straight(0, 30, 30, -0.3, 30, 0, 10), straight(6, 30, 8, 0.6, 10, 0.4, 10)}, 30);
+  SmcPhdConfig config = paper_config(10);
+  config.birth = BirthProposal::uniform, config.backward_frames = 12;
+  config.identity.separation = 6;
+  int added = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const TrackLog log = track(scene, config, seed).log;
+    for (const TrackPoint& p : log.revised()) {
+      if (p.status != TrackStatus::confirmed) continue;
+      if (p.frame >= first_frame(log.online(), p.track_id)) continue;
+      ++added;
+      double nearest = 1000;
+      for (const TruthPoint& t : truth_at(scene, static_cast<int>(p.frame))) {
+        nearest = std::min(nearest, std::hypot(p.x - t.x, p.y - t.y));
+      }
+      EXPECT_LT(nearest, 4) << p.frame;
+      for (const TrackPoint& other : log.revised()) {
+        if (other.frame != p.frame || other.track_id == p.track_id) continue;
+        EXPECT_GT(std::hypot(p.x - other.x, p.y - other.y), 4) << p.frame;
+      }
+    }
+  }
+  EXPECT_GT(added, 0);
+}
+
 }  // namespace
 }  // namespace glint
