@@ -3,14 +3,7 @@
 #   [-DGST_INSPECT=...] -P run_test.cmake
 # Puts the build's installation, or with PACKAGES the contents of its Debian packages, into WORK, then
 # builds and runs the consumers in C++ and C, by find_package and by pkg-config.
-function(run)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(failed)
-    list(JOIN ARGV " " command)
-    message(FATAL_ERROR "${command}\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
+include(${SOURCE}/run.cmake)
 
 # The packages' names carry a version and an architecture; each name is written once.
 function(unpack)

@@ -4,16 +4,10 @@
 # README's project with Glint fetched as a part of itself, in place of find_package: FetchContent is
 # add_subdirectory on a folder that is there. By each compiler there is and under flags of the program's
 # own the program is compiled, linked with LIBRARY, the libglint.a of the build that the test belongs to
-# (the same sources, built once) and TBB, and run. With WHOLE, by CXX, the project builds its own library, without
-# optimisation: three minutes of CPU.
+# (the same sources, built once) and TBB, and run. With WHOLE, by CXX, the project builds its own library,
+# without optimisation: three minutes of CPU.
 include(${SOURCE}/readme.cmake)
-function(run)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(failed)
-    list(JOIN ARGV " " command)
-    message(FATAL_ERROR "${command}\n${output}")
-  endif()
-endfunction()
+include(${SOURCE}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 get_filename_component(glint ${SOURCE}/../.. ABSOLUTE)
