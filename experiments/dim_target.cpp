@@ -65,14 +65,6 @@ double tracks_in_noise(const char* tracker, std::uint64_t seed) {
   return 2000.0 / config.frames * static_cast<double>(run.online.scores.false_tracks);
 }
 
-ExperimentRow row_of(const std::string& name, const char* metric, double DimRun::*of,
-                     const std::vector<DimRun>& runs, std::optional<Band> band = {}) {
-  std::vector<double> values;
-  values.reserve(runs.size());
-  for (const DimRun& run : runs) values.push_back(run.*of);
-  return value_row(name, metric, values, band);
-}
-
 void add_rows(const Level& level, const char* tracker, const std::vector<DimRun>& runs,
               ExperimentResult& result) {
   const bool banded = tracker == kTrackers.front();
@@ -81,11 +73,12 @@ void add_rows(const Level& level, const char* tracker, const std::vector<DimRun>
     return banded ? std::optional(Band{low, high}) : std::nullopt;
   };
   result.rows.push_back(
-      row_of(name, "detected", &DimRun::detected, runs, band(level.detected, {})));
-  result.rows.push_back(row_of(name, "first detected after [frames]", &DimRun::delay, runs));
-  result.rows.push_back(row_of(name, "OSPA [px]", &DimRun::ospa, runs));
+      value_row(name, "detected", column(runs, &DimRun::detected), band(level.detected, {})));
   result.rows.push_back(
-      row_of(name, "false tracks", &DimRun::false_tracks, runs, band({}, level.false_tracks)));
+      value_row(name, "first detected after [frames]", column(runs, &DimRun::delay)));
+  result.rows.push_back(value_row(name, "OSPA [px]", column(runs, &DimRun::ospa)));
+  result.rows.push_back(value_row(name, "false tracks", column(runs, &DimRun::false_tracks),
+                                  band({}, level.false_tracks)));
 }
 
 }  // namespace
@@ -107,9 +100,10 @@ ExperimentResult run_dim_target(const ExperimentOptions& options, Workers& worke
     if (level < kLevels.size()) {
       add_rows(kLevels[level], tracker, runs[i], result);
     } else {
-      result.rows.push_back(row_of(std::string(tracker) + ", noise alone", "tracks in 2000 frames",
-                                   &DimRun::false_tracks, runs[i],
-                                   i < kPer ? std::optional(Band{{}, 1}) : std::nullopt));
+      result.rows.push_back(value_row(std::string(tracker) + ", noise alone",
+                                      "tracks in 2000 frames",
+                                      column(runs[i], &DimRun::false_tracks),
+                                      i < kPer ? std::optional(Band{{}, 1}) : std::nullopt));
     }
   }
   return result;

@@ -102,4 +102,13 @@ ExperimentRow value_row(std::string name, std::string metric, const std::vector<
                         const std::optional<Band>& band = {},
                         const std::optional<double>& paper = {});
 
+/// A member of every run's result, times `scale`.
+template <class Run>
+std::vector<double> column(const std::vector<Run>& runs, double Run::*member, double scale = 1) {
+  std::vector<double> values;
+  values.reserve(runs.size());
+  for (const Run& run : runs) values.push_back(scale * run.*member);
+  return values;
+}
+
 }  // namespace glint

@@ -55,13 +55,6 @@ std::function<AircraftRun(std::uint64_t, const Device&)> runner(
   };
 }
 
-std::vector<double> column(const std::vector<AircraftRun>& runs, double AircraftRun::*value) {
-  std::vector<double> values;
-  values.reserve(runs.size());
-  for (const AircraftRun& run : runs) values.push_back(run.*value);
-  return values;
-}
-
 std::vector<std::vector<AircraftRun>> run_all(const std::vector<Case>& cases,
                                               const ExperimentOptions& options, Workers& workers,
                                               ExperimentResult& result) {

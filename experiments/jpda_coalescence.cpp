@@ -99,10 +99,7 @@ void add_rows(const Case& c, const std::vector<Run>& runs, ExperimentResult& res
   const std::string name = std::string(c.reading.name) + ", parting at " + number_text(c.parting);
   const auto row = [&](const char* metric, double scale, double Run::*of,
                        std::optional<Band> band = {}) {
-    std::vector<double> values;
-    values.reserve(runs.size());
-    for (const Run& run : runs) values.push_back(scale * run.*of);
-    result.rows.push_back(value_row(name, metric, values, band));
+    result.rows.push_back(value_row(name, metric, column(runs, of, scale), band));
   };
   const bool best = c.reading.name == kReadings[kBest].name;
   const bool plain = c.reading.name == kReadings[kPlain].name;

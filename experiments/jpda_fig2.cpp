@@ -187,11 +187,10 @@ ExperimentResult run_jpda_fig2(const ExperimentOptions& options, Workers& worker
   ExperimentResult result;
   for (std::size_t r = 0; r < kReadings.size(); ++r) {
     const Reading& reading = kReadings[r];
-    std::vector<double> rms, lost, ratio;
-    for (std::size_t i = 0; i < runs[r].size(); ++i) {
-      rms.push_back(runs[r][i].rms), lost.push_back(100 * runs[r][i].lost / kTargets);
-      ratio.push_back(std::log(runs[r][i].rms / runs[0][i].rms));
-    }
+    const std::vector<double> rms = column(runs[r], &Run::rms);
+    const std::vector<double> lost = column(runs[r], &Run::lost, 100.0 / kTargets);
+    std::vector<double> ratio;
+    for (std::size_t i = 0; i < rms.size(); ++i) ratio.push_back(std::log(rms[i] / runs[0][i].rms));
     result.rows.push_back(value_row(reading.name, "run-rms, scans 16-25 [m]", rms));
     result.rows.push_back(value_row(reading.name, "its median [m]", {median(rms)}, Band{71, 78}));
     const auto most = reading.most_lost;
