@@ -107,6 +107,30 @@ Coverage coverage_of(std::int64_t boat, std::vector<TruthPoint> truth,
   return coverage;
 }
 
+std::map<std::int64_t, double> first_confirmed(const std::vector<TrackPoint>& online,
+                                               const Evaluation& scores) {
+  std::map<std::int64_t, double> first;
+  for (const TrackPoint& p : online) {  // by scan
+    const auto boat = scores.counts_for.find(p.track_id);
+    if (p.status != TrackStatus::confirmed || boat == scores.counts_for.end()) continue;
+    if (boat->second) first.try_emplace(*boat->second, static_cast<double>(p.frame + 1));
+  }
+  return first;
+}
+
+/// By scan.
+std::vector<bool> echoes_of(std::int64_t boat, const BoatRecord& record, double reach) {
+  std::vector<bool> echo(record.scans.size());
+  for (const TruthPoint& t : record.truth) {
+    if (t.track_id != boat) continue;
+    const auto scan = static_cast<std::size_t>(t.frame);
+    echo[scan] = std::ranges::any_of(record.scans[scan].points, [&](const Position& p) {
+      return distance(p, {t.x, t.y}) <= reach;
+    });
+  }
+  return echo;
+}
+
 Box box_about(std::span<const TruthPoint> truth) {
   const auto [left, right] = std::ranges::minmax(truth, {}, &TruthPoint::x);
   const auto [low, high] = std::ranges::minmax(truth, {}, &TruthPoint::y);
@@ -142,6 +166,24 @@ BoatRecord changed(const BoatRecord& record, const BoatTrial& trial) {
   return result;
 }
 
+double confirmable_at(const BoatRecord& record, std::int64_t boat, const HitLogic& logic,
+                      double reach) {
+  const std::vector<bool> echo = echoes_of(boat, record, reach);
+  double earliest = kUndefined;
+  for (std::size_t first = echo.size(); first-- > 0;) {
+    const std::size_t end =
+        std::min(first + static_cast<std::size_t>(logic.confirm_window), echo.size());
+    if (first + 1 >= end || !echo[first] || !echo[first + 1]) continue;
+    int hits = 0;
+    for (std::size_t scan = first; scan < end; ++scan) {
+      if (!echo[scan] || ++hits < logic.confirm_hits) continue;
+      earliest = std::fmin(earliest, static_cast<double>(scan + 1));
+      break;
+    }
+  }
+  return earliest;
+}
+
 BoatScore follow_boats(const BoatRecord& record, const ImmJpdaConfig& config, double reach) {
   ImmJpda tracker(config, Device::serial(), 1);
   TrackLog log;
@@ -167,7 +209,9 @@ BoatScore follow_boats(const BoatRecord& record, const ImmJpdaConfig& config, do
   };
   const std::vector<TrackPoint> revised = in_reach(log.revised());
   const EvaluationOptions options{.cutoff = kBoatCutoff, .frames = last + 1};
-  score.scores = evaluate(record.truth, in_reach(log.online()), options);
+  const std::vector<TrackPoint> online = in_reach(log.online());
+  score.scores = evaluate(record.truth, online, options);
+  score.confirmed = first_confirmed(online, score.scores);
   for (const auto& [id, ignored] : score.scores.truths) {
     score.coverage[id] = coverage_of(id, record.truth, revised, options);
   }

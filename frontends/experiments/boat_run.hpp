@@ -31,8 +31,19 @@ struct BoatScore {
   // Of tracks started from the truth.
   int lost = 0;     ///< boats whose own track is more than 20 m off at the end, or has ended
   int swapped = 0;  ///< boats whose own track is with the other one at the end
+  /// Scan, from 1, when a track that counts for the boat is first confirmed; by boat, none if
+  /// never.
+  std::map<std::int64_t, double> confirmed;
 };
-auto fields(OneOf<BoatScore> auto& s) { return std::tie(s.scores, s.coverage, s.lost, s.swapped); }
+auto fields(OneOf<BoatScore> auto& s) {
+  return std::tie(s.scores, s.coverage, s.lost, s.swapped, s.confirmed);
+}
+
+/// The first scan, from 1, by which a boat has given `hits` echoes within `window` scans, the first
+/// two of them in a row: sooner no track that starts on two points can be confirmed. An echo is a
+/// point within `reach` [m] of the truth. NaN if it never has.
+double confirmable_at(const BoatRecord& record, std::int64_t boat, const HitLogic& logic,
+                      double reach);
 
 /// Steps the tracker over the scans. Unless the tracker initiates by itself, every boat is started
 /// where it is when it comes within reach. Tracks beyond `reach` [m] of the ship do not count.

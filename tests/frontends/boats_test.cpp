@@ -52,6 +52,25 @@ TEST(Boats, OwnStartsAreThereFromTheirSecondScanOn) {
   EXPECT_EQ(score.scores.false_tracks, 0);
 }
 
+TEST(Boats, AreConfirmedAsSoonAsTheirEchoesAllow) {
+  constexpr HitLogic kThreeOfFour{.confirm_hits = 3, .confirm_window = 4};
+  BoatRecord record = two_boats(12);
+  EXPECT_EQ(confirmable_at(record, 2, kThreeOfFour, 30), 3);
+  // Boat 2 gives echoes at scans 2, 4, 5 and 7 alone: 2 and 4 are not in a row, 4 to 7 are four.
+  for (const std::size_t silent : {0, 2, 5, 7, 8, 9, 10, 11}) {
+    record.scans[silent].points.pop_back();
+  }
+  EXPECT_EQ(confirmable_at(record, 1, kThreeOfFour, 30), 3);
+  EXPECT_EQ(confirmable_at(record, 2, kThreeOfFour, 30), 7);
+  EXPECT_TRUE(std::isnan(confirmable_at(record, 2, {.confirm_hits = 4, .confirm_window = 4}, 30)));
+  EXPECT_EQ(confirmable_at(record, 2, kThreeOfFour, 61), 3);  // boat 1's are as near
+  ImmJpdaConfig own = config(true);
+  own.life.halt_existence = 0;
+  const BoatScore score = follow_boats(record, own, kFar);
+  EXPECT_EQ(score.confirmed.at(1), 3);
+  EXPECT_EQ(score.confirmed.at(2), 7);
+}
+
 TEST(Boats, ABoatWithoutPointsIsLost) {
   BoatRecord record = two_boats(20);
   for (std::size_t i = 6; i < record.scans.size(); ++i) record.scans[i].points.pop_back();
