@@ -11,6 +11,7 @@
 #include "glint/engine/frames/point_finder.hpp"
 #include "glint/engine/number_text.hpp"
 #include "glint/engine/profiles.hpp"
+#include "glint/engine/scenario/radar_scenes.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
 
@@ -97,6 +98,7 @@ std::vector<ConfigSection> all_sections() {
                                       ConfigSection::of<PointsConfig>("points")};
   for (const TrackerEntry& tracker : all_trackers()) sections.push_back(tracker.config());
   for (const SceneEntry& scene : all_scenes()) sections.push_back(scene.config());
+  for (const RadarSceneEntry& scene : all_radar_scenes()) sections.push_back(scene.config());
   return sections;
 }
 

@@ -8,19 +8,14 @@
 
 #include "glint/engine/metrics/metrics.hpp"
 #include "glint/engine/number_text.hpp"
+#include "glint/engine/scenario/radar_scenes.hpp"
 #include "glint/experiments/boat_tracker.hpp"
 #include "glint/experiments/jpda.hpp"
 #include "glint/experiments/monte_carlo.hpp"
-#include "glint/kernels/core/random.hpp"
 
 namespace glint {
 namespace {
 
-// A radar that turns once in 2.5 s sees two boats side by side; for 45 s both are one echo, where
-// the second is. Then they part: who has followed the echo with both has to choose.
-constexpr double kPeriod = 2.5, kMerge = 30, kPart = 75, kEnd = 135;  // [s]
-constexpr double kSpeed = 3, kApart = 20, kSigma = 5;                 // [m/s], [m], [m]
-constexpr double kDetection = 0.9;
 constexpr double kCutoff = 20, kOrder = 2;  // of OSPA [m]
 
 constexpr std::array kReadings{
@@ -41,44 +36,37 @@ struct Case {
   double parting;  // [m/s]
 };
 
-double apart(double time, double parting) { return kApart + parting * std::max(time - kPart, 0.0); }
-
-std::vector<PointMeasurement> echoes(double time, int scan, double parting, std::uint64_t seed) {
-  const RandomKey key = random_key(seed, static_cast<std::uint64_t>(scan), Purpose::scenario);
-  const bool one = time >= kMerge && time < kPart;
+std::vector<PointMeasurement> echoes(const RadarScene& scene, std::uint64_t seed, int scan) {
   std::vector<PointMeasurement> points;
-  for (std::uint32_t target = one ? 1 : 0; target < 2; ++target) {
-    const auto seen = static_cast<double>(uniform(random_words(key, target, 1).w[0]));
-    if (seen > kDetection) continue;
-    const Normals4 n = random_normals(key, target);
-    const double x = kSpeed * time + kSigma * static_cast<double>(n.n[0]);
-    const double y = apart(time, parting) * target + kSigma * static_cast<double>(n.n[1]);
-    points.push_back({x, y, 10});
-  }
+  for (const Eigen::Vector3d& p : points_at(scene, seed, scan))
+    points.push_back({p.x(), p.y(), 10});
   return points;
 }
 
 Run follow(const Case& c, std::uint64_t seed) {
+  MergingBoatsScene settings;
+  settings.parting = c.parting;
+  const RadarScene scene = make_scene(settings);
   ImmJpdaConfig config = boat_tracker(c.reading);
   keep_to_known(config);
   ImmJpda tracker(config, Device::serial(), seed);
-  for (const double y : {0.0, kApart}) tracker.start(0, y, kSpeed, 0);
+  for (const TruthPoint& boat : truth_at(scene, 0)) {
+    tracker.start(boat.x, boat.y, boat.vx, boat.vy);
+  }
   TrackLog log;
   Run run;
   int merged = 0, after = 0;
-  for (int k = 0; k * kPeriod < kEnd; ++k) {
-    const double time = k * kPeriod;
-    const std::vector<PointMeasurement> points = echoes(time, k, c.parting, seed);
+  for (int k = 0; k < scene.scans; ++k) {
+    const std::vector<PointMeasurement> points = echoes(scene, seed, k);
     Scan scan;
-    scan.frame = k, scan.time = time, scan.points = points;
+    scan.frame = k, scan.time = k * scene.interval, scan.points = points;
     tracker.step(scan, log);
-    std::vector<Position> tracks;
+    std::vector<Position> tracks, truth;
     for (const TrackPoint& p : log.at(k)) tracks.push_back({p.x, p.y});
-    const std::array truth{Position{kSpeed * time, 0},
-                           Position{kSpeed * time, apart(time, c.parting)}};
+    for (const TruthPoint& p : truth_at(scene, k)) truth.push_back({p.x, p.y});
     const double error = ospa(truth, tracks, kCutoff, kOrder).distance;
-    if (time >= kPart) run.after += error, ++after;
-    if (time >= kMerge && time < kPart) run.merged += error, ++merged;
+    if (scan.time >= settings.part) run.after += error, ++after;
+    if (scan.time >= settings.merge && scan.time < settings.part) run.merged += error, ++merged;
     const auto off = [&](std::size_t a, std::size_t b) {  // the larger, as labelled or exchanged
       return std::max(std::hypot(tracks[0].x - truth[a].x, tracks[0].y - truth[a].y),
                       std::hypot(tracks[1].x - truth[b].x, tracks[1].y - truth[b].y));

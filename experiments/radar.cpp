@@ -11,10 +11,16 @@ namespace glint {
 
 template class ImmOf<3>;
 
+RangeAzimuthElevation sensor_of(const Radar& radar) {
+  RangeAzimuthElevation sensor;
+  sensor.noise = radar.sd.cwiseAbs2().asDiagonal();
+  sensor.place = radar.place;
+  return sensor;
+}
+
 Eigen::Vector3d expected_measurement(const RangeAzimuthElevation& sensor,
                                      const Eigen::Vector3d& position) {
-  const Eigen::Vector3d d = position - sensor.place;
-  return {d.norm(), wrapped(std::atan2(d.y(), d.x())), std::atan2(d.z(), std::hypot(d.x(), d.y()))};
+  return range_azimuth_elevation(position - sensor.place);
 }
 
 Eigen::Matrix3d jacobian(const RangeAzimuthElevation& sensor, const Eigen::Vector3d& position) {

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "glint/engine/filters/imm.hpp"
+#include "glint/engine/scenario/radar_scene.hpp"
 #include "glint/engine/trackers/jpda/measurement.hpp"
 
 namespace glint {
@@ -19,6 +20,9 @@ struct RangeAzimuthElevation {
     return std::tie(s.noise, s.place);
   }
 };
+
+/// The radar of a scene, which measures just that.
+RangeAzimuthElevation sensor_of(const Radar& radar);
 
 /// Range [length], azimuth and elevation [rad] of a target at `position`, without noise.
 Eigen::Vector3d expected_measurement(const RangeAzimuthElevation& sensor,

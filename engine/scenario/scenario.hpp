@@ -63,7 +63,8 @@ struct SceneEntry {
 
 /// The one list of scenes.
 std::span<const SceneEntry> all_scenes();
-/// Throws ConfigError that lists the names if there is no such scene.
+/// Throws ConfigError that lists the names, those of radar_scenes.hpp too, if there is no such
+/// scene, and says how to use one that has no frames.
 const SceneEntry& find_scene(std::string_view name);
 
 /// A scene's frames, float, one channel.

@@ -4,6 +4,8 @@
 #include <array>
 #include <string>
 
+#include "glint/engine/scenario/radar_scenes.hpp"
+
 namespace glint {
 namespace {
 
@@ -69,7 +71,14 @@ const SceneEntry& find_scene(std::string_view name) {
     if (scene.name == name) return scene;
     known += (known.empty() ? "" : ", ") + std::string(scene.name);
   }
-  throw ConfigError("there is no scene '" + std::string(name) + "'; choose one of " + known);
+  const std::string given(name);
+  if (find_radar_scene(name) != nullptr) {
+    throw ConfigError("scene '" + given +
+                      "' is points of a radar, without frames: glint simulate " + given +
+                      " --out DIR writes them, glint track DIR/points.csv follows them");
+  }
+  for (const RadarSceneEntry& scene : all_radar_scenes()) known += ", " + std::string(scene.name);
+  throw ConfigError("there is no scene '" + given + "'; choose one of " + known);
 }
 
 }  // namespace glint

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "glint/engine/scenario/radar_scenes.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/cli/commands.hpp"
@@ -59,6 +60,7 @@ void print_info() {
   fmt::print("\ninputs            {}\n", video_support());
   print_entries("trackers", all_trackers());
   print_entries("scenes", all_scenes());
+  print_entries("scenes of points", all_radar_scenes());
   fmt::print("experiments       glint experiment --help lists them\n");
 }
 
