@@ -23,4 +23,12 @@ ExperimentResult run_phd_5_3(const ExperimentOptions& options, Workers& workers)
 /// its frames with a confirmed point within 3 px, delay, false tracks. Not of a paper.
 ExperimentResult run_dim_target(const ExperimentOptions& options, Workers& workers);
 
+/// What trackers state about themselves, at 3 and 6 dB in 64x64 and 256x256 pixels: covariances
+/// (NEES) and existence probabilities (Brier's score over the base rate's). Not of a paper.
+ExperimentResult run_consistency(const ExperimentOptions& options, Workers& workers);
+
+/// Two hundred targets in one frame: share of their points with a confirmed point within 3 px.
+/// Not of a paper.
+ExperimentResult run_dim_field(const ExperimentOptions& options, Workers& workers);
+
 }  // namespace glint

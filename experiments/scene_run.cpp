@@ -46,7 +46,9 @@ SceneScore score(const Scene& scene, const std::vector<TrackPoint>& points, bool
   options.include_tentative = tentative;
   options.frames = scene.frames;
   SceneScore result;
-  result.scores = evaluate(truth_of(scene), points, options);
+  const std::vector<TruthPoint> truth = truth_of(scene);
+  result.scores = evaluate(truth, points, options);
+  result.consistency = consistency(truth, points);
   const auto frames = static_cast<std::size_t>(scene.frames);
   result.targets.assign(scene.targets.size(), {std::vector<double>(frames, kUndefined),
                                                std::vector<ModeProbability>(frames)});

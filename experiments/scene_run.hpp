@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "glint/engine/filters/mode_probability.hpp"
+#include "glint/engine/metrics/consistency.hpp"
 #include "glint/engine/metrics/evaluation.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/engine/scenario/scenario.hpp"
@@ -25,9 +26,10 @@ auto fields(OneOf<TargetRecord> auto& r) { return std::tie(r.error, r.modes, r.h
 
 struct SceneScore {
   Evaluation scores;
+  Consistency consistency;  ///< of all points, tentative ones included
   std::vector<TargetRecord> targets;  ///< in the order of the scene's
 };
-auto fields(OneOf<SceneScore> auto& s) { return std::tie(s.scores, s.targets); }
+auto fields(OneOf<SceneScore> auto& s) { return std::tie(s.scores, s.consistency, s.targets); }
 
 /// A tracker's run over a scene, as it was reported at the time and as it was revised later.
 struct SceneRun {

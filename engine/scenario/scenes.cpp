@@ -23,6 +23,7 @@ constexpr std::array kScenes{
     entry<AircraftScene>("a dark aircraft before a cloudy sky: P-HPMHT section 4"),
     entry<PmhtClipScene>("fast point targets on splines and turns: P-PMHT section 4"),
     entry<DimTargetScene>("one dim target on a course of its own for each variant"),
+    entry<DimFieldScene>("two hundred targets of 6 to 14 dB in 512x512 pixels"),
     entry<CrossingScene>("two targets that cross"),
     entry<NoiseScene>("white noise alone"),
 };

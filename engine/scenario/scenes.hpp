@@ -51,6 +51,20 @@ void describe(FieldList& list, DimTargetScene& config);
 /// Throws ConfigError if no course fits into the frame.
 Scene make_scene(const DimTargetScene& config);
 
+/// Many targets like that, of 6 to 14 dB and .2 to 2 px/frame, in frames 3 to 36 of 40.
+struct DimFieldScene {
+  static constexpr std::string_view kName = "dim-field";
+  int size = 512;  ///< width and height [px]
+  int targets = 200;
+  double snr_low = 6, snr_high = 14;       ///< [dB]
+  double speed_low = 0.2, speed_high = 2;  ///< [px/frame]
+  double manoeuvre = 0.002;                ///< [px^2/frame^2]
+  int variant = 0;
+};
+void describe(FieldList& list, DimFieldScene& config);
+/// Throws ConfigError if a low end is above its high end or no course fits into the frame.
+Scene make_scene(const DimFieldScene& config);
+
 /// An infrared-like clip after P-PMHT section 4: point targets on B-spline paths above a skyline,
 /// in grey levels.
 struct IrClipScene {

@@ -13,7 +13,7 @@ namespace glint {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'G', 'L', 'I', 'N', 'T', 'C', 'K', 'P'};
-constexpr std::uint32_t kFormat = 3;  // a change of what a class's fields() names is a new one
+constexpr std::uint32_t kFormat = 4;  // a change of what a class's fields() names is a new one
 constexpr std::size_t kChecksumAt = kMagic.size() + sizeof kFormat;
 constexpr std::size_t kLabelAt = kChecksumAt + sizeof(std::uint64_t);
 

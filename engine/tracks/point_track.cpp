@@ -38,7 +38,9 @@ void report(PointTrack& track, const ModeProbability& probability, const StepTim
   point.x = x(0), point.y = x(2), point.vx = x(1) * rate, point.vy = x(3) * rate;
   point.intensity = track.amplitude, point.existence = track.life.existence();
   const auto& p = track.state.covariance;
-  point.var_x = p(0, 0), point.cov_xy = p(0, 2), point.var_y = p(2, 2);
+  const StateCovariance covariance{p(0, 0), p(0, 2), p(2, 2), p(0, 1), p(0, 3),
+                                   p(2, 1), p(2, 3), p(1, 1), p(1, 3), p(3, 3)};
+  point.set_covariance(covariance.with_velocity_scaled(rate));
   point.mode_probability = probability;
   log.report(point);
   if (track.life.over()) log.drop(track.id, track.last_seen + 1);

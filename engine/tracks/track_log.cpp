@@ -24,6 +24,7 @@ void append_point(std::string& out, const TrackPoint& p) {
        {p.time, p.x, p.y, p.vx, p.vy, p.intensity, p.existence, p.var_x, p.cov_xy, p.var_y}) {
     append(value);
   }
+  for (const double value : velocity_covariance(p)) append(value);
   for (const double value : p.mode_probability) append(value);
   out += '\n';
 }

@@ -10,6 +10,7 @@
 
 #include "glint/engine/filters/mode_probability.hpp"
 #include "glint/engine/state/bytes.hpp"
+#include "glint/engine/tracks/state_covariance.hpp"
 
 namespace glint {
 
@@ -17,22 +18,22 @@ enum class TrackStatus { tentative, confirmed, halted };
 
 /// A track at one frame. Unknown values are NaN. Position [px], velocity [px/s], intensity
 /// [sigmas].
-struct TrackPoint {
-  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+struct TrackPoint : StateCovariance {
   std::int64_t frame = 0;
   double time = 0;  ///< [s]
   std::int64_t track_id = 0;
   TrackStatus status = TrackStatus::tentative;
   double x = kUnknown, y = kUnknown, vx = kUnknown, vy = kUnknown;
   double intensity = kUnknown, existence = kUnknown;
-  double var_x = kUnknown, cov_xy = kUnknown, var_y = kUnknown;  ///< [px^2]
   ModeProbability mode_probability;  ///< in the order of TrackLog::mode_names()
 
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.frame, s.time, s.track_id, s.status, s.x, s.y, s.vx, s.vy, s.intensity,
-                    s.existence, s.var_x, s.cov_xy, s.var_y, s.mode_probability);
+    return std::tuple_cat(std::tie(s.frame, s.time, s.track_id, s.status, s.x, s.y, s.vx, s.vy,
+                                   s.intensity, s.existence),
+                          StateCovariance::fields(s), std::tie(s.mode_probability));
   }
+  void set_covariance(const StateCovariance& c) { static_cast<StateCovariance&>(*this) = c; }
   void restored() const {
     require_bytes(status >= TrackStatus::tentative && status <= TrackStatus::halted,
                   "a track has no such status");

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/engine/trackers/phd/bernoulli.hpp"
+
 namespace glint {
 namespace {
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/engine/trackers/phd/bernoulli.hpp"
+
 namespace glint {
 namespace {
 
@@ -13,14 +15,6 @@ constexpr std::uint64_t kTargets = std::uint64_t{0x7A} << 56;
 double distance(const Peak& a, const Peak& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 }  // namespace
-
-double bernoulli_update(double existence, double survival, double ratio) {
-  if (!(ratio > 0)) return 0;
-  // Neither certain nor impossible, or no frame could change it any more.
-  constexpr double kLeast = 1e-100, kMost = 1 - 1e-6;
-  const double there = std::clamp(survival * existence, kLeast, kMost);
-  return there * ratio / (1 - there + there * ratio);
-}
 
 void describe_separation(FieldList& f, FollowedTargetsConfig& c) {
   f("separation", c.separation, 0, 1000, "px",
@@ -85,17 +79,14 @@ void FollowedTargets::note_support(FollowedTarget& target, double survival, doub
 void FollowedTargets::update_life(FollowedTarget& target, const TargetUpdate& update,
                                   const StepTime& at) const {
   const double survival = std::pow(survival_, at.step);
-  bool hit = false;
-  if (config_.rule == LifeRule::existence) {
-    target.existence = bernoulli_update(target.existence, survival, update.mean_ratio);
-    hit = target.existence >= config_.existence;
-  } else {
-    target.existence = std::min(1.0, target.existence * update.mean_ratio);
-    hit = target.existence >= 1;
-    target.ended = target.existence <= config_.miss_probability;
-  }
+  target.existence = bernoulli_update(target.existence, survival, update.mean_ratio);
   if (update.mean_ratio > 0) target.estimate = update.estimate;
   note_support(target, survival, update.mean_ratio, at.frame);
+  bool hit = target.existence >= config_.existence;
+  if (config_.rule == LifeRule::likelihood_ratio) {
+    hit = target.support >= 1;
+    target.ended = target.support <= config_.miss_probability;
+  }
   if (hit) {
     ++target.hits;
     target.misses = 0;
@@ -126,7 +117,7 @@ void FollowedTargets::report(FollowedTarget& target, const StepTime& at, TrackLo
   point.existence = target.existence;
   const bool confirmed = target.confirmed || target.hits >= config_.confirm_hits;
   // What is not likely to be there is not said to be, whatever its past.
-  const bool likely = config_.rule != LifeRule::existence || target.existence >= config_.existence;
+  const bool likely = target.existence >= config_.existence;
   point.status = confirmed && likely ? TrackStatus::confirmed : TrackStatus::tentative;
   // It is likelier to live than to have ended before: then it was there in the frames between, too.
   if (confirmed && target.recovered) log.confirm(target.id, target.first_missed);
@@ -154,7 +145,9 @@ bool FollowedTargets::detect(const Cluster& cluster, const StepTime& at, TrackLo
   if (followed) return false;
   FollowedTarget target;
   target.id = next_id_++;
-  target.existence = config_.rule == LifeRule::existence ? std::min(1.0, peak.mass) : 1;
+  const double odds = peak.mass;  // of the ratio test
+  target.existence =
+      config_.rule == LifeRule::existence ? std::min(1.0, peak.mass) : odds / (1 + odds);
   target.detected = at.frame;
   target.estimate = peak;
   filters_.add(cluster.particles, cluster.members, at.frame);

@@ -35,23 +35,18 @@ struct FollowedTargetsConfig {
                                    ///< tracks this near one ends [px]
 };
 
-/// Existence probability of one target after a frame: W = survival r before it, odds W / (1 - W) L
-/// after it. `ratio`: L; 0 ends all hope. The Bernoulli filter's update. P-PHD (14), (19) have the
-/// odds W L, a PHD's: with r at most 1 they forget by how much a target was seen before.
-double bernoulli_update(double existence, double survival, double ratio);
-
 /// Lists `separation` alone.
 void describe_separation(FieldList& f, FollowedTargetsConfig& c);
 
 /// A target with a track.
 struct FollowedTarget {
   std::uint32_t id = 0;
-  double existence = 1;  ///< r_k, or e^S_k
+  double existence = 1;  ///< r_k, see bernoulli_update()
   int hits = 1, misses = 0;
   bool confirmed = false, ended = false;
   std::int64_t detected = 0;  ///< frame of the detection, k0
   /// Likelihood of having lived till now over that of having ended when it was likeliest, at
-  /// most 1.
+  /// most 1; e^S_k of the ratio test, which knows no survival.
   double support = 1;
   std::int64_t first_missed = 0;  ///< frame after that one
   bool recovered = false;         ///< by this frame, from support below 1

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/engine/trackers/phd/bernoulli.hpp"
 #include "glint/engine/trackers/phd/peaks.hpp"
 
 namespace glint {
@@ -62,29 +63,41 @@ bool Identities::near_seen(const Peak& peak) const {
   });
 }
 
+// The peak's mass is what a PHD makes of the frame before and of this one. Without a peak in the
+// frame before there is nothing to go on from but that.
+void Identities::see(Track& track, const Peak& peak, double step) const {
+  const double survival = std::pow(survival_, step);
+  track.existence =
+      track.mass > 0 ? bernoulli_update(track.existence, survival,
+                                        ratio_of_mass(peak.mass, track.mass, survival))
+                     : std::min(1.0, peak.mass);
+  track.seen = true, ++track.hits, track.misses = 0;
+  track.x = peak.x, track.y = peak.y, track.vx = peak.vx, track.vy = peak.vy;
+  track.mass = peak.mass;
+}
+
 void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32_t> members,
-                        Particles& particles, std::int64_t frame, double time, double step,
-                        double velocity_scale, std::size_t modes, TrackLog& log) {
-  for (auto& t : tracks_) t.seen = false, t.x += step * t.vx, t.y += step * t.vy;
+                        Particles& particles, const StepTime& at, std::size_t modes,
+                        TrackLog& log) {
+  for (auto& t : tracks_) t.seen = false, t.x += at.step * t.vx, t.y += at.step * t.vy;
   const auto of = [&](const Peak& p) { return members.subspan(p.first, p.last - p.first); };
   // Peaks that carry a label first: no other peak may take their tracks.
   assigned_.assign(peaks.size(), 0);
   confirmed_now_.clear();
-  const auto see = [&](Track& t, std::size_t k) {
-    t.seen = true, ++t.hits, t.misses = 0;
-    t.x = peaks[k].x, t.y = peaks[k].y, t.vx = peaks[k].vx, t.vy = peaks[k].vy;
+  const auto take = [&](Track& t, std::size_t k) {
+    see(t, peaks[k], at.step);
     assigned_[k] = t.id;
   };
   for (std::size_t k = 0; k < peaks.size(); ++k) {
-    if (Track* t = labelled(peaks[k], of(peaks[k]), particles)) see(*t, k);
+    if (Track* t = labelled(peaks[k], of(peaks[k]), particles)) take(*t, k);
   }
   for (std::size_t k = 0; k < peaks.size(); ++k) {
     if (assigned_[k] != 0) continue;
     if (Track* t = lost_near(peaks[k])) {
-      see(*t, k);
+      take(*t, k);
     } else if (!near_seen(peaks[k])) {
-      tracks_.push_back({next_id_++, frame});
-      see(tracks_.back(), k);
+      tracks_.push_back({next_id_++, at.frame});
+      take(tracks_.back(), k);
     }
   }
   for (std::size_t k = 0; k < peaks.size(); ++k) {
@@ -92,26 +105,33 @@ void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32
     for (const auto i : of(peaks[k])) particles.label[i] = assigned_[k];
     const auto t = std::find_if(tracks_.begin(), tracks_.end(),
                                 [&](const Track& u) { return u.id == assigned_[k]; });
-    TrackPoint point = point_of(peaks[k], modes, {frame, time, step, velocity_scale});
-    point.track_id = t->id;
-    point.existence = std::min(1.0, peaks[k].mass);
-    point.status =
-        t->hits >= config_.confirm_hits ? TrackStatus::confirmed : TrackStatus::tentative;
-    log.report(point);
-    if (t->hits != config_.confirm_hits) continue;
-    log.confirm(t->id, 0);
-    confirmed_now_.push_back({t->id, t->detected, k});
+    report(*t, peaks[k], modes, at, log);
+    if (t->hits == config_.confirm_hits) confirmed_now_.push_back({t->id, t->detected, k});
   }
-  halt_missing(frame, time, velocity_scale, log);
+  halt_missing(at, log);
 }
 
-void Identities::halt_missing(std::int64_t frame, double time, double velocity_scale,
-                              TrackLog& log) {
+void Identities::report(const Track& track, const Peak& peak, std::size_t modes,
+                        const StepTime& at, TrackLog& log) const {
+  TrackPoint point = point_of(peak, modes, at);
+  point.track_id = track.id;
+  point.existence = track.existence;
+  const bool confirmed = track.hits >= config_.confirm_hits;
+  point.status = confirmed ? TrackStatus::confirmed : TrackStatus::tentative;
+  log.report(point);
+  if (track.hits == config_.confirm_hits) log.confirm(track.id, 0);
+}
+
+void Identities::halt_missing(const StepTime& at, TrackLog& log) {
   for (auto& t : tracks_) {
-    if (t.seen || ++t.misses < config_.halt_misses || t.hits < config_.confirm_hits) continue;
+    if (t.seen) continue;
+    t.mass = 0;
+    if (++t.misses < config_.halt_misses || t.hits < config_.confirm_hits) continue;
     TrackPoint end;
-    end.frame = frame, end.time = time, end.track_id = t.id, end.status = TrackStatus::halted;
-    end.x = t.x, end.y = t.y, end.vx = t.vx * velocity_scale, end.vy = t.vy * velocity_scale;
+    end.frame = at.frame, end.time = at.time, end.track_id = t.id;
+    end.status = TrackStatus::halted;
+    end.x = t.x, end.y = t.y;
+    end.vx = t.vx * at.velocity_scale, end.vy = t.vy * at.velocity_scale;
     log.report(end);
   }
   std::erase_if(tracks_, [&](const Track& t) { return t.misses >= config_.halt_misses; });

@@ -26,14 +26,14 @@ void describe(FieldList& f, IdentityConfig& c);
 /// and its particles take its label, so that resampling carries the identity on.
 class Identities {
  public:
-  explicit Identities(const IdentityConfig& config) : config_(config) {}
+  /// `survival`: probability that a target lives on to the next frame.
+  Identities(const IdentityConfig& config, double survival)
+      : config_(config), survival_(survival) {}
 
   /// Labels the members of each peak in `particles` and reports the tracks of this frame. Peaks
-  /// are sorted by falling mass: of two that carry one label the heavier takes it. `step` [frame]
-  /// is the time since the last call; `velocity_scale` converts [px/frame] to [px/s].
+  /// are sorted by falling mass: of two that carry one label the heavier takes it.
   void assign(std::span<const Peak> peaks, std::span<const std::uint32_t> members,
-              Particles& particles, std::int64_t frame, double time, double step,
-              double velocity_scale, std::size_t modes, TrackLog& log);
+              Particles& particles, const StepTime& at, std::size_t modes, TrackLog& log);
 
   /// A track that the last assign() confirmed.
   struct Confirmed {
@@ -63,18 +63,25 @@ class Identities {
     bool seen = false;      // at the present frame
     double x = 0, y = 0;    // predicted to the present frame, or that of its peak there [px]
     double vx = 0, vy = 0;  // [px/frame]
+    double mass = 0;        // of its peak in the last frame; 0 if it had none
+    double existence = 0;   // probability at its last peak
     template <class Self>
     static auto fields(Self& s) {
-      return std::tie(s.id, s.detected, s.hits, s.misses, s.seen, s.x, s.y, s.vx, s.vy);
+      return std::tie(s.id, s.detected, s.hits, s.misses, s.seen, s.x, s.y, s.vx, s.vy, s.mass,
+                      s.existence);
     }
   };
   Track* labelled(const Peak& peak, std::span<const std::uint32_t> members,
                   const Particles& particles);
   Track* lost_near(const Peak& peak);
   bool near_seen(const Peak& peak) const;
-  void halt_missing(std::int64_t frame, double time, double velocity_scale, TrackLog& log);
+  void see(Track& track, const Peak& peak, double step) const;
+  void report(const Track& track, const Peak& peak, std::size_t modes, const StepTime& at,
+              TrackLog& log) const;
+  void halt_missing(const StepTime& at, TrackLog& log);
 
   IdentityConfig config_;
+  double survival_;
   std::vector<Track> tracks_;  // by rising id
   std::vector<std::pair<std::uint32_t, double>> votes_;
   std::vector<std::uint32_t> assigned_;  // by peak: its track, 0 = none

@@ -19,7 +19,7 @@ TrackPoint point_of(const Peak& estimate, std::size_t modes, const StepTime& at)
   point.x = estimate.x, point.y = estimate.y;
   point.vx = estimate.vx * at.velocity_scale, point.vy = estimate.vy * at.velocity_scale;
   point.intensity = estimate.intensity;
-  point.var_x = estimate.var_x, point.cov_xy = estimate.cov_xy, point.var_y = estimate.var_y;
+  point.set_covariance(estimate.with_velocity_scaled(at.velocity_scale));
   for (std::size_t m = 0; m < modes; ++m) {
     point.mode_probability.push_back(estimate.mode_probability[m]);  // P-PHD (35)
   }
@@ -40,10 +40,17 @@ Peak describe_cluster(const Particles& p, std::span<const std::uint32_t> members
   }
   for (auto* v : {&peak.x, &peak.y, &peak.vx, &peak.vy, &peak.intensity}) *v /= peak.mass;
   for (auto& m : peak.mode_probability) m /= peak.mass;
+  StateCovariance c = StateCovariance::zero();
   for (const auto i : members) {
-    const double w = weight[i] / peak.mass, dx = p.x[i] - peak.x, dy = p.y[i] - peak.y;
-    peak.var_x += w * dx * dx, peak.cov_xy += w * dx * dy, peak.var_y += w * dy * dy;
+    const double w = weight[i] / peak.mass;
+    const double x = p.x[i] - peak.x, y = p.y[i] - peak.y;
+    const double vx = p.vx[i] - peak.vx, vy = p.vy[i] - peak.vy;
+    c.var_x += w * x * x, c.cov_xy += w * x * y, c.var_y += w * y * y;
+    c.cov_x_vx += w * x * vx, c.cov_x_vy += w * x * vy;
+    c.cov_y_vx += w * y * vx, c.cov_y_vy += w * y * vy;
+    c.var_vx += w * vx * vx, c.cov_vx_vy += w * vx * vy, c.var_vy += w * vy * vy;
   }
+  static_cast<StateCovariance&>(peak) = c;
   return peak;
 }
 

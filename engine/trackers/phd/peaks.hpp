@@ -14,19 +14,18 @@
 namespace glint {
 
 /// Weighted moments of a cluster of particles that stands for one target.
-struct Peak {
-  double mass = 0;                          ///< expected number of targets
-  double x = 0, y = 0, vx = 0, vy = 0;      ///< [px], [px/frame]
-  double intensity = 0;                     ///< [noise sigmas]
-  double var_x = 0, cov_xy = 0, var_y = 0;  ///< [px^2]
-  ModeProbability mode_probability;         ///< of kMostModes models; sums to 1
-  std::size_t first = 0, last = 0;          ///< members: PeakFinder::members()[first, last)
+struct Peak : StateCovariance {
+  double mass = 0;                      ///< expected number of targets
+  double x = 0, y = 0, vx = 0, vy = 0;  ///< [px], [px/frame]; so the covariance's time is frames
+  double intensity = 0;                 ///< [noise sigmas]
+  ModeProbability mode_probability;     ///< of kMostModes models; sums to 1
+  std::size_t first = 0, last = 0;      ///< members: PeakFinder::members()[first, last)
 
   // Without the members, which are valid for one frame only.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.mass, s.x, s.y, s.vx, s.vy, s.intensity, s.var_x, s.cov_xy, s.var_y,
-                    s.mode_probability);
+    return std::tuple_cat(std::tie(s.mass, s.x, s.y, s.vx, s.vy, s.intensity),
+                          StateCovariance::fields(s), std::tie(s.mode_probability));
   }
 };
 

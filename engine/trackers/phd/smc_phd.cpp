@@ -28,7 +28,7 @@ SmcPhd::SmcPhd(const SmcPhdConfig& config, const Device& device, std::uint64_t s
       mode_names_(config.bank().names),
       appearance_(config),
       filter_(config, device, seed),
-      identities_(config.identity),
+      identities_(config.identity, config.survival),
       noise_(config.noise_adaptation),
       backward_(traced(config), config, config.backward_frames, device, seed) {}
 
@@ -62,8 +62,7 @@ void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
                         half_width, {config_.existence, radius});
     members = peaks_.members();
   }
-  identities_.assign(found, members, particles, scan.frame, scan.time, at.step, at.velocity_scale,
-                     mode_names_.size(), log);
+  identities_.assign(found, members, particles, at, mode_names_.size(), log);
   noise_.update(found, members, particles);
   trace_back(scan, at, found, members, log);
   filter_.send_labels();

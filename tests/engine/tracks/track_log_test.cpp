@@ -178,12 +178,18 @@ TEST(TrackLog, TextTellsEveryDifference) {
   log.report(p);
   EXPECT_EQ(log.text(),
             "modes cv turn\nonline\n"
-            "4 2 tentative 0 0.1 nan nan nan nan nan nan nan nan 0.25 0.75\nrevised\n"
-            "4 2 tentative 0 0.1 nan nan nan nan nan nan nan nan 0.25 0.75\n");
+            "4 2 tentative 0 0.1 nan nan nan nan nan nan nan nan nan nan nan nan nan nan nan "
+            "0.25 0.75\nrevised\n"
+            "4 2 tentative 0 0.1 nan nan nan nan nan nan nan nan nan nan nan nan nan nan nan "
+            "0.25 0.75\n");
   const std::string before = log.text();
   p.x = std::nextafter(p.x, 1.0);
   log.revise(p);
-  EXPECT_NE(log.text(), before);
+  const std::string moved = log.text();
+  EXPECT_NE(moved, before);
+  p.cov_vx_vy = 1;
+  log.revise(p);
+  EXPECT_NE(log.text(), moved);
 }
 
 TEST(TrackLog, TextDoesNotTellNaNsApart) {

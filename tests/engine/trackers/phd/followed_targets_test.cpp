@@ -86,18 +86,6 @@ using Frames = std::vector<std::int64_t>;
 
 constexpr Pixel kHere{10, 12};
 
-// The Bernoulli filter: odds W / (1 - W) L, W = e r.
-TEST(FollowedTargets, ABernoulliUpdateKnowsItsLimits) {
-  EXPECT_NEAR(bernoulli_update(0.5, 1, 3), 0.75, 1e-12);
-  EXPECT_NEAR(bernoulli_update(0.8, 0.5, 6), 0.8, 1e-12);  // odds 2/3 to 4
-  EXPECT_EQ(bernoulli_update(1, 1, 0), 0);
-  // Certain of nothing: also a target that cannot die ends, and one given up can come back.
-  EXPECT_LT(bernoulli_update(1, 1, 1e-9), 0.01);
-  EXPECT_NEAR(bernoulli_update(0, 0.99, 1e80), 0, 1e-12);
-  EXPECT_GT(bernoulli_update(bernoulli_update(1, 0.99, 1e-300), 0.99, 1e300), 0.9);
-  EXPECT_NEAR(bernoulli_update(0.5, 0.99, 1e300), 1, 1e-12);
-}
-
 TEST(FollowedTargets, ExistenceFollowsTheMeanLikelihoodRatio) {
   Follower f;
   f.detect(kHere.x, kHere.y, 0, 0.6);
@@ -285,14 +273,14 @@ TEST(FollowedTargets, OfTheRatioTestEndAtTheProbabilityOfAMiss) {
   EXPECT_TRUE(f.only().confirmed);
   EXPECT_EQ(f.confirmed_now(), std::vector<std::size_t>{0});
   f.follow({kHere});
-  EXPECT_EQ(f.only().existence, 1);
+  EXPECT_EQ(f.only().support, 1);
   f.follow({});
-  EXPECT_NEAR(f.only().existence, 1.0 / 4, 1e-5);
+  EXPECT_NEAR(f.only().support, 1.0 / 4, 1e-5);
   EXPECT_EQ(f.only().misses, 1);
   f.follow({});
-  EXPECT_NEAR(f.only().existence, 1.0 / 16, 1e-5);
+  EXPECT_NEAR(f.only().support, 1.0 / 16, 1e-5);
   f.follow({kHere}), f.follow({kHere}), f.follow({kHere});
-  EXPECT_EQ(f.only().existence, 1);
+  EXPECT_EQ(f.only().support, 1);
   EXPECT_EQ(f.only().misses, 0);
   f.follow({}), f.follow({});
   ASSERT_EQ(f.targets().size(), 1U);
@@ -300,6 +288,21 @@ TEST(FollowedTargets, OfTheRatioTestEndAtTheProbabilityOfAMiss) {
   EXPECT_TRUE(f.targets().empty());
   // Frames 2 and 3 were misses that three hits made good; 7 to 9 are the last misses.
   EXPECT_EQ(frames_of(f.log().revised(), 1), (Frames{0, 1, 2, 3, 4, 5, 6, 9}));
+}
+
+// The mass of what the ratio test declares is the odds of a target.
+TEST(FollowedTargets, OfTheRatioTestStateABernoulliProbability) {
+  FollowedTargetsConfig config = config_of();
+  config.rule = LifeRule::likelihood_ratio;
+  config.confirm_hits = 1, config.miss_probability = 1e-3;
+  Follower f(config, 4);
+  f.detect(kHere.x, kHere.y, 0, 3);
+  EXPECT_NEAR(f.only().existence, 0.75, 1e-6);
+  f.follow({});
+  const double odds = 0.99 * 0.75 / (1 - 0.99 * 0.75) / 4;
+  EXPECT_NEAR(f.only().existence, odds / (1 + odds), 1e-5);
+  EXPECT_EQ(f.log().at(0)[0].status, TrackStatus::confirmed);
+  EXPECT_EQ(f.log().at(1)[0].status, TrackStatus::tentative);  // it is below 1 / 2
 }
 
 TEST(FollowedTargets, SurviveEachFrameThatASkippedOneStandsFor) {

@@ -21,7 +21,7 @@ struct TestPeak {
 
 class Tracks {
  public:
-  explicit Tracks(const IdentityConfig& config = {}) : identities_(config) {}
+  explicit Tracks(const IdentityConfig& config = {}) : identities_(config, 1) {}
   /// The next frame, or `step` frames on; returns the labels of the peaks' first particles.
   std::vector<std::uint32_t> see(const std::vector<TestPeak>& list, int step = 1,
                                  double velocity_scale = 1) {
@@ -40,8 +40,9 @@ class Tracks {
     }
     Particles p = particles_of(particles);
     frame_ += step;
-    identities_.assign(peaks, all_members(p), p, frame_, static_cast<double>(frame_), step,
-                       velocity_scale, 1, log);
+    identities_.assign(
+        peaks, all_members(p), p,
+        {frame_, static_cast<double>(frame_), static_cast<double>(step), velocity_scale}, 1, log);
     std::vector<std::uint32_t> labels;
     for (const Peak& peak : peaks) {
       for (std::size_t i = peak.first; i < peak.last; ++i) {
@@ -147,6 +148,20 @@ TEST(Identities, ReportVelocityInPixelsPerSecondAndExistenceOfAtMostOne) {
   EXPECT_NEAR(points[0].vx, 75, 1e-9);
   EXPECT_NEAR(points[0].existence, 0.7, 1e-6);
   EXPECT_EQ(points[1].existence, 1);
+}
+
+// A PHD's mass knows one frame only: what it says of the frame's likelihood ratio counts.
+TEST(Identities, ExistenceRemembersAllFramesWithAPeak) {
+  Tracks tracks;
+  const TestPeak first{10, 0, {{0, 0.5F}}}, later{10, 0, {{1, 0.75F}}};
+  tracks.see({first});
+  tracks.see({later});  // odds 3 from 1/2: a ratio of 6
+  EXPECT_NEAR(tracks.log.at(1)[0].existence, 6.0 / 7, 1e-6);
+  tracks.see({later});  // odds 3 from 3/4: a ratio of 4
+  EXPECT_NEAR(tracks.log.at(2)[0].existence, 24.0 / 25, 1e-6);
+  tracks.see({});
+  tracks.see({later});  // what went before the miss is not known any more
+  EXPECT_NEAR(tracks.log.at(4)[0].existence, 0.75, 1e-6);
 }
 
 TEST(Identities, TellWhichTracksAFrameConfirmedAndWhereTheyBegan) {

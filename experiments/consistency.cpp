@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "glint/engine/scenario/scenes.hpp"
+#include "glint/experiments/monte_carlo.hpp"
+#include "glint/experiments/phd.hpp"
+#include "glint/experiments/scene_run.hpp"
+
+namespace glint {
+namespace {
+
+struct StatedBy {
+  const char* tracker;
+  bool banded;
+};
+constexpr std::array kTrackers{StatedBy{"mm-phd", true}, StatedBy{"mm-pf", true},
+                               StatedBy{"smc-phd", true}, StatedBy{"viterbi", false},
+                               StatedBy{"h-pmht", false}};
+
+struct Field {
+  int size;                      // [px]
+  double speed, manoeuvre, snr;  // [px/frame], [px^2/frame^2], [dB]
+};
+constexpr std::array kFields{Field{64, 1.5, .02, 3}, Field{64, 1.5, .02, 6},
+                             Field{256, 3, .02, 3}, Field{256, 3, .02, 6}};
+
+/// One setting for all: the trackers' own, but for how dim a target may be.
+TrackerSetup setup_of(const std::string& tracker) {
+  TrackerSetup setup{tracker, {}};
+  if (tracker == "viterbi") return {tracker, {{"snr_low", 2.0}, {"snr_high", 16.0}}};
+  if (tracker == "h-pmht") {
+    setup.settings.push_back({"snr", 6.0});
+    return setup;
+  }
+  setup.settings = {{"snr_low", 2.0}, {"snr_high", 16.0}, {"motion", getenv("M") ? getenv("M") : "cv"}, {"process_noise", getenv("Q") ? atof(getenv("Q")) : .001}, {"jitter", getenv("J") ? atof(getenv("J")) : .2}, {"intensity_walk", getenv("W") ? atof(getenv("W")) : .2}};
+  if (tracker == "mm-phd") setup.settings.push_back({"confirm_hits", 3});
+  return setup;
+}
+
+Consistency run_of(const char* tracker, const Field& field, std::uint64_t seed) {
+  DimTargetScene config;
+  config.size = field.size, config.snr = field.snr;
+  config.speed = field.speed, config.manoeuvre = field.manoeuvre;
+  config.variant = static_cast<int>(seed);
+  return run_scene(make_scene(config), setup_of(tracker), seed).online.consistency;
+}
+
+/// Each run's part of a ratio of sums: the parts' mean is the ratio.
+template <class Above, class Below>
+std::vector<double> parts(const std::vector<Consistency>& runs, const Above& above,
+                          const Below& below) {
+  double whole = 0;
+  for (const Consistency& run : runs) whole += below(run);
+  std::vector<double> values;
+  values.reserve(runs.size());
+  for (const Consistency& run : runs) {
+    values.push_back(above(run) * static_cast<double>(runs.size()) / whole);
+  }
+  return values;
+}
+
+std::vector<double> mean_over_points(const std::vector<Consistency>& runs,
+                                     PointSum Consistency::*of) {
+  return parts(
+      runs, [of](const Consistency& c) { return (c.*of).sum; },
+      [of](const Consistency& c) { return static_cast<double>((c.*of).points); });
+}
+
+/// Brier's score of all points of all runs over that of their base rate.
+std::vector<double> brier_ratio(const std::vector<Consistency>& runs) {
+  Consistency all;
+  for (const Consistency& run : runs) {
+    all.existence_error.points += run.existence_error.points, all.real += run.real;
+  }
+  const double base = all.brier_of_base_rate();
+  return parts(
+      runs, [](const Consistency& c) { return c.existence_error.sum; },
+      [base](const Consistency& c) { return base * static_cast<double>(c.existence_error.points); });
+}
+
+void add_rows(const std::string& name, const std::vector<Consistency>& runs, bool banded,
+              ExperimentResult& result) {
+  const auto add = [&](const char* metric, const std::vector<double>& values, const Band& band) {
+    result.rows.push_back(
+        value_row(name, metric, values, banded ? std::optional(band) : std::nullopt));
+  };
+  add("NEES of position", mean_over_points(runs, &Consistency::position_nees), {1.5, 2.6});
+  add("NEES of position and velocity", mean_over_points(runs, &Consistency::state_nees),
+      {3.2, 4.8});
+  add("Brier / base rate's", brier_ratio(runs), {{}, .6});
+}
+
+}  // namespace
+
+ExperimentResult run_consistency(const ExperimentOptions& options, Workers& workers) {
+  const auto runs = run_cases(kTrackers.size() * kFields.size(), options, workers,
+                              [&](std::size_t which, std::size_t run) {
+                                return run_of(kTrackers[which / kFields.size()].tracker,
+                                              kFields[which % kFields.size()], options.seed + run);
+                              });
+  ExperimentResult result;
+  for (std::size_t t = 0; t < kTrackers.size(); ++t) {
+    std::vector<Consistency> all;
+    for (std::size_t f = 0; f < kFields.size(); ++f) {
+      const std::vector<Consistency>& some = runs[t * kFields.size() + f];
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    add_rows(kTrackers[t].tracker, all, kTrackers[t].banded, result);
+    for (std::size_t f = 0; f < kFields.size(); ++f) {
+      add_rows(std::string(kTrackers[t].tracker) + ", " + std::to_string(kFields[f].size) +
+                   " px, " + std::to_string(static_cast<int>(kFields[f].snr)) + " dB",
+               runs[t * kFields.size() + f], false, result);
+    }
+  }
+  return result;
+}
+
+}  // namespace glint
