@@ -21,22 +21,19 @@ constexpr std::array kTrackers{StatedBy{"mm-phd", true}, StatedBy{"mm-pf", true}
                                StatedBy{"smc-phd", true}, StatedBy{"viterbi", false},
                                StatedBy{"h-pmht", false}};
 
+/// Targets that manoeuvre as the trackers expect: by their default process_noise.
+constexpr double kManoeuvre = .02;  // [px^2/frame^2]
 struct Field {
-  int size;                      // [px]
-  double speed, manoeuvre, snr;  // [px/frame], [px^2/frame^2], [dB]
+  int size;           // [px]
+  double speed, snr;  // [px/frame], [dB]
 };
-constexpr std::array kFields{Field{64, 1.5, .02, 3}, Field{64, 1.5, .02, 6},
-                             Field{256, 3, .02, 3}, Field{256, 3, .02, 6}};
+constexpr std::array kFields{Field{64, 1.5, 3}, Field{64, 1.5, 6}, Field{256, 3, 3},
+                             Field{256, 3, 6}};
 
-/// One setting for all: the trackers' own, but for how dim a target may be.
+/// The trackers' own settings, but for how dim a target may be.
 TrackerSetup setup_of(const std::string& tracker) {
-  TrackerSetup setup{tracker, {}};
-  if (tracker == "viterbi") return {tracker, {{"snr_low", 2.0}, {"snr_high", 16.0}}};
-  if (tracker == "h-pmht") {
-    setup.settings.push_back({"snr", 6.0});
-    return setup;
-  }
-  setup.settings = {{"snr_low", 2.0}, {"snr_high", 16.0}, {"motion", getenv("M") ? getenv("M") : "cv"}, {"process_noise", getenv("Q") ? atof(getenv("Q")) : .001}, {"jitter", getenv("J") ? atof(getenv("J")) : .2}, {"intensity_walk", getenv("W") ? atof(getenv("W")) : .2}};
+  if (tracker == "h-pmht") return {tracker, {{"snr", 6.0}}};
+  TrackerSetup setup{tracker, {{"snr_low", 2.0}, {"snr_high", 16.0}}};
   if (tracker == "mm-phd") setup.settings.push_back({"confirm_hits", 3});
   return setup;
 }
@@ -44,7 +41,7 @@ TrackerSetup setup_of(const std::string& tracker) {
 Consistency run_of(const char* tracker, const Field& field, std::uint64_t seed) {
   DimTargetScene config;
   config.size = field.size, config.snr = field.snr;
-  config.speed = field.speed, config.manoeuvre = field.manoeuvre;
+  config.speed = field.speed, config.manoeuvre = kManoeuvre;
   config.variant = static_cast<int>(seed);
   return run_scene(make_scene(config), setup_of(tracker), seed).online.consistency;
 }
@@ -79,7 +76,9 @@ std::vector<double> brier_ratio(const std::vector<Consistency>& runs) {
   const double base = all.brier_of_base_rate();
   return parts(
       runs, [](const Consistency& c) { return c.existence_error.sum; },
-      [base](const Consistency& c) { return base * static_cast<double>(c.existence_error.points); });
+      [base](const Consistency& c) {
+        return base * static_cast<double>(c.existence_error.points);
+      });
 }
 
 void add_rows(const std::string& name, const std::vector<Consistency>& runs, bool banded,

@@ -56,10 +56,10 @@ std::optional<Band> band_of(const std::string& tracker) {
 }  // namespace
 
 ExperimentResult run_dim_field(const ExperimentOptions& options, Workers& workers) {
-  const auto runs = run_cases(kTrackers.size(), options, workers,
-                              [&](std::size_t which, std::size_t run) {
-                                return run_of(kTrackers[which], options, options.seed + run);
-                              });
+  const auto runs =
+      run_cases(kTrackers.size(), options, workers, [&](std::size_t which, std::size_t run) {
+        return run_of(kTrackers[which], options, options.seed + run);
+      });
   ExperimentResult result;
   for (std::size_t t = 0; t < kTrackers.size(); ++t) {
     const std::string name = kTrackers[t];

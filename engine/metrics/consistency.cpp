@@ -13,8 +13,8 @@ namespace {
 
 Eigen::Matrix4d matrix_of(const StateCovariance& c) {
   Eigen::Matrix4d p;
-  p << c.var_x, c.cov_xy, c.cov_x_vx, c.cov_x_vy,  //
-      c.cov_xy, c.var_y, c.cov_y_vx, c.cov_y_vy,   //
+  p << c.var_x, c.cov_xy, c.cov_x_vx, c.cov_x_vy,     //
+      c.cov_xy, c.var_y, c.cov_y_vx, c.cov_y_vy,      //
       c.cov_x_vx, c.cov_y_vx, c.var_vx, c.cov_vx_vy,  //
       c.cov_x_vy, c.cov_y_vy, c.cov_vx_vy, c.var_vy;
   return p;

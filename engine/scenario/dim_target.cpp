@@ -16,9 +16,9 @@ constexpr double kMargin = 3;  // [px]
 
 /// What a target's course is drawn by.
 struct CourseSettings {
-  double size;       // of the frame [px]
-  double speed;      // [px/frame]
-  double manoeuvre;  // [px^2/frame^2]
+  double size;         // of the frame [px]
+  double speed;        // [px/frame]
+  double manoeuvre;    // [px^2/frame^2]
   std::uint32_t life;  // [frames]
 };
 
@@ -93,9 +93,9 @@ Scene make_scene(const DimTargetScene& config) {
   scene.frames = 50;
   const CourseSettings settings{static_cast<double>(config.size), config.speed, config.manoeuvre,
                                 kLife};
-  scene.targets = {{kFirst, kFirst + kLife, scene.point_spread.intensity_of_snr(config.snr),
-                    path_of(course_inside(scene.name, settings,
-                                          static_cast<std::uint64_t>(config.variant)))}};
+  scene.targets = {
+      {kFirst, kFirst + kLife, scene.point_spread.intensity_of_snr(config.snr),
+       path_of(course_inside(scene.name, settings, static_cast<std::uint64_t>(config.variant)))}};
   return scene;
 }
 
@@ -123,15 +123,15 @@ Scene make_scene(const DimFieldScene& config) {
   scene.frames = 40;
   for (int i = 0; i < config.targets; ++i) {
     // Targets are told apart by the upper half of the seed: no variant has another's courses.
-    const std::uint64_t seed = static_cast<std::uint64_t>(config.variant) |
-                               (static_cast<std::uint64_t>(i + 1) << 32);
+    const std::uint64_t seed =
+        static_cast<std::uint64_t>(config.variant) | (static_cast<std::uint64_t>(i + 1) << 32);
     const Words4 draw = random_words(random_key(seed, 0, Purpose::scenario), 1U << 20);
     const auto between = [&](double low, double high, std::size_t word) {
       return low + (high - low) * static_cast<double>(uniform(draw.w[word]));
     };
     const CourseSettings settings{static_cast<double>(config.size),
-                                  between(config.speed_low, config.speed_high, 0),
-                                  config.manoeuvre, kLife};
+                                  between(config.speed_low, config.speed_high, 0), config.manoeuvre,
+                                  kLife};
     const double snr = between(config.snr_low, config.snr_high, 1);
     scene.targets.push_back({kFirst, kFirst + kLife, scene.point_spread.intensity_of_snr(snr),
                              path_of(course_inside(scene.name, settings, seed))});

@@ -11,10 +11,10 @@ namespace glint {
 /// is not known.
 struct StateCovariance {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  double var_x = kUnknown, cov_xy = kUnknown, var_y = kUnknown;            ///< [px^2]
-  double cov_x_vx = kUnknown, cov_x_vy = kUnknown;                         ///< [px^2/s]
-  double cov_y_vx = kUnknown, cov_y_vy = kUnknown;                         ///< [px^2/s]
-  double var_vx = kUnknown, cov_vx_vy = kUnknown, var_vy = kUnknown;       ///< [px^2/s^2]
+  double var_x = kUnknown, cov_xy = kUnknown, var_y = kUnknown;       ///< [px^2]
+  double cov_x_vx = kUnknown, cov_x_vy = kUnknown;                    ///< [px^2/s]
+  double cov_y_vx = kUnknown, cov_y_vy = kUnknown;                    ///< [px^2/s]
+  double var_vx = kUnknown, cov_vx_vy = kUnknown, var_vy = kUnknown;  ///< [px^2/s^2]
 
   static StateCovariance zero() { return {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; }
   /// Of velocities that are `scale` times as large.

@@ -67,10 +67,10 @@ bool Identities::near_seen(const Peak& peak) const {
 // frame before there is nothing to go on from but that.
 void Identities::see(Track& track, const Peak& peak, double step) const {
   const double survival = std::pow(survival_, step);
-  track.existence =
-      track.mass > 0 ? bernoulli_update(track.existence, survival,
-                                        ratio_of_mass(peak.mass, track.mass, survival))
-                     : std::min(1.0, peak.mass);
+  track.existence = track.mass > 0
+                        ? bernoulli_update(track.existence, survival,
+                                           ratio_of_mass(peak.mass, track.mass, survival))
+                        : std::min(1.0, peak.mass);
   track.seen = true, ++track.hits, track.misses = 0;
   track.x = peak.x, track.y = peak.y, track.vx = peak.vx, track.vy = peak.vy;
   track.mass = peak.mass;
@@ -111,8 +111,8 @@ void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32
   halt_missing(at, log);
 }
 
-void Identities::report(const Track& track, const Peak& peak, std::size_t modes,
-                        const StepTime& at, TrackLog& log) const {
+void Identities::report(const Track& track, const Peak& peak, std::size_t modes, const StepTime& at,
+                        TrackLog& log) const {
   TrackPoint point = point_of(peak, modes, at);
   point.track_id = track.id;
   point.existence = track.existence;
