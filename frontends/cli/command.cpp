@@ -62,6 +62,10 @@ Option Command::option(const std::string& name, std::optional<std::int64_t>& val
                        const std::string& help) {
   return Option(app_->add_option(name, value, help));
 }
+Option Command::option(const std::string& name, std::optional<double>& value,
+                       const std::string& help) {
+  return Option(app_->add_option(name, value, help));
+}
 Option Command::option(const std::string& name, std::uint64_t& value, const std::string& help) {
   return Option(app_->add_option(name, value, help));
 }

@@ -9,6 +9,7 @@
 #include "glint/engine/metrics/evaluation.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/files/tables.hpp"
+#include "glint/frontends/usage_error.hpp"
 
 namespace glint::cli {
 namespace {
@@ -18,11 +19,12 @@ using Json = nlohmann::ordered_json;
 struct Request {
   std::string truth, tracks, baseline;
   EvaluationOptions options;
+  std::optional<double> false_points;  // a frame
   bool json = false;
 };
 
 struct Report {
-  Evaluation scores;
+  std::optional<Evaluation> scores;
   std::optional<Baseline> baseline;
 };
 
@@ -44,31 +46,34 @@ Json per_truth(const Evaluation& e, double TruthScore::*value) {
 /// A mean over no frames is undefined.
 Json mean(const Evaluation& e, double value) { return e.ospa.empty() ? Json() : Json(value); }
 
+Json json_of(const Evaluation& e) {
+  return {{"ospa",
+           {{"mean", mean(e, e.mean_ospa.distance)},
+            {"localisation", mean(e, e.mean_ospa.localisation)},
+            {"cardinality", mean(e, e.mean_ospa.cardinality)},
+            {"per_frame", per_frame(e.ospa)}}},
+          {"gospa",
+           {{"mean", mean(e, e.mean_gospa.distance)},
+            {"localisation", mean(e, e.mean_gospa.localisation)},
+            {"missed", mean(e, e.mean_gospa.missed)},
+            {"false", mean(e, e.mean_gospa.false_alarms)},
+            {"per_frame", per_frame(e.gospa)}}},
+          {"rmse", per_truth(e, &TruthScore::rmse)},
+          {"tracks",
+           {{"truth", e.truths.size()},
+            {"detected", e.detected_truths},
+            {"false", e.false_tracks},
+            {"pd_track", number(e.track_detection_probability)},
+            {"identities_per_truth", number(e.identities_per_truth)}}},
+          {"detect_delay", per_truth(e, &TruthScore::detect_delay)},
+          {"halt_delay", per_truth(e, &TruthScore::halt_delay)},
+          {"points",
+           {{"detected", number(e.detected_points)},
+            {"false_per_frame", number(e.false_points_per_frame)}}}};
+}
+
 void print_json(const Report& report) {
-  const Evaluation& e = report.scores;
-  Json all{{"ospa",
-            {{"mean", mean(e, e.mean_ospa.distance)},
-             {"localisation", mean(e, e.mean_ospa.localisation)},
-             {"cardinality", mean(e, e.mean_ospa.cardinality)},
-             {"per_frame", per_frame(e.ospa)}}},
-           {"gospa",
-            {{"mean", mean(e, e.mean_gospa.distance)},
-             {"localisation", mean(e, e.mean_gospa.localisation)},
-             {"missed", mean(e, e.mean_gospa.missed)},
-             {"false", mean(e, e.mean_gospa.false_alarms)},
-             {"per_frame", per_frame(e.gospa)}}},
-           {"rmse", per_truth(e, &TruthScore::rmse)},
-           {"tracks",
-            {{"truth", e.truths.size()},
-             {"detected", e.detected_truths},
-             {"false", e.false_tracks},
-             {"pd_track", number(e.track_detection_probability)},
-             {"identities_per_truth", number(e.identities_per_truth)}}},
-           {"detect_delay", per_truth(e, &TruthScore::detect_delay)},
-           {"halt_delay", per_truth(e, &TruthScore::halt_delay)},
-           {"points",
-            {{"detected", number(e.detected_points)},
-             {"false_per_frame", number(e.false_points_per_frame)}}}};
+  Json all = report.scores ? json_of(*report.scores) : Json::object();
   if (report.baseline) {
     all["baseline"] = {{"threshold", number(report.baseline->threshold)},
                        {"detected", number(report.baseline->detected_points)},
@@ -88,8 +93,7 @@ void print_truths(const Evaluation& e) {
   }
 }
 
-void print_table(const Report& report) {
-  const Evaluation& e = report.scores;
+void print_scores(const Evaluation& e) {
   fmt::print("frames                     {}\n", e.ospa.size());
   fmt::print("OSPA [px]                  {}   (localisation {}, cardinality {})\n",
              text(e.mean_ospa.distance), text(e.mean_ospa.localisation),
@@ -102,23 +106,45 @@ void print_table(const Report& report) {
   fmt::print("identities per truth       {}\n", text(e.identities_per_truth));
   fmt::print("truth points detected      {}\n", text(e.detected_points));
   fmt::print("false points per frame     {}\n", text(e.false_points_per_frame));
+}
+
+void print_table(const Report& report) {
+  if (report.scores) print_scores(*report.scores);
   if (report.baseline) {
-    fmt::print("single-frame detector      {} detected at {} false points per frame\n",
-               text(report.baseline->detected_points),
-               text(report.baseline->false_points_per_frame));
+    fmt::print(
+        "single-frame detector      {} detected at {} false points per frame, threshold {}\n",
+        text(report.baseline->detected_points), text(report.baseline->false_points_per_frame),
+        text(report.baseline->threshold));
   }
-  print_truths(e);
+  if (report.scores) print_truths(*report.scores);
+}
+
+/// Throws UsageError unless there is something to score.
+void check(const Request& request) {
+  if (request.tracks.empty() && request.baseline.empty()) {
+    throw UsageError("nothing to score: give --tracks, or --baseline and --false-points");
+  }
+  if (request.baseline.empty() && request.false_points) {
+    throw UsageError("--false-points is for a detector: give its points by --baseline");
+  }
+  if (request.tracks.empty() && !request.false_points) {
+    throw UsageError("--baseline without --tracks needs --false-points");
+  }
 }
 
 void run(Request request) {
+  check(request);
   const std::vector<TruthPoint> truth = read_truth(request.truth);
-  const std::vector<TrackPoint> tracks = read_tracks(request.tracks);
   Report report;
-  report.scores = evaluate(truth, tracks, request.options);
+  if (!request.tracks.empty()) {
+    report.scores = evaluate(truth, read_tracks(request.tracks), request.options);
+    request.options.frames = static_cast<std::int64_t>(report.scores->ospa.size());
+  }
   if (!request.baseline.empty()) {
-    request.options.frames = static_cast<std::int64_t>(report.scores.ospa.size());
-    report.baseline = detector_baseline(truth, read_points(request.baseline),
-                                        report.scores.false_points_per_frame, request.options);
+    const double allowed =
+        request.false_points ? *request.false_points : report.scores->false_points_per_frame;
+    report.baseline =
+        detector_baseline(truth, read_points(request.baseline), allowed, request.options);
   }
   if (request.json) {
     print_json(report);
@@ -130,10 +156,10 @@ void run(Request request) {
 }  // namespace
 
 void add_evaluate(Command& program) {
-  Command command = program.subcommand("evaluate", "Score tracks against the truth");
+  Command command = program.subcommand("evaluate", "Score tracks, or points, against the truth");
   const auto request = std::make_shared<Request>();
   command.option("--truth", request->truth, "Truth table (CSV)").required();
-  command.option("--tracks", request->tracks, "Track table (CSV)").required();
+  command.option("--tracks", request->tracks, "Track table (CSV)");
   command.option("--cutoff", request->options.cutoff, "Farther than this is a miss [px]")
       .in_range(1e-6, 1e6)
       .with_default();
@@ -147,13 +173,18 @@ void add_evaluate(Command& program) {
   command.option("--baseline", request->baseline,
                  "Points of a single-frame detector (CSV), scored at the threshold that gives "
                  "as many false points as the tracks have");
+  command
+      .option("--false-points", request->false_points,
+              "At most so many false points a frame for the baseline, in place of the tracks'")
+      .in_range(0.0, 1e6);
   command.flag("--include-tentative", request->options.include_tentative,
                "Score tentative points too, not only confirmed ones");
   command.flag("--json", request->json, "Print JSON instead of a table");
   command.footer(
       "Truth needs the columns frame, track_id, x, y (or frame0, linked_id, cx, cy), tracks the\n"
       "first four, points frame, x, y, amplitude. Delays are in frames.\n"
-      "Example:\n  glint evaluate --truth truth.csv --tracks tracks.csv --cutoff 8");
+      "Example:\n  glint evaluate --truth truth.csv --tracks tracks.csv --cutoff 8\n"
+      "  glint evaluate --truth truth.csv --baseline points.csv --false-points 1");
   command.callback([request] { run(*request); });
 }
 

@@ -89,6 +89,50 @@ TEST(Evaluate, SetsADetectorBesideTheTracks) {
   EXPECT_EQ(baseline["false_per_frame"], 0.0);
 }
 
+// Thresholds 9, 8 and 7 give 0, 1 and 1 false points in three frames, and find 1, 1 and 2 of two.
+TEST(Evaluate, ScoresADetectorAloneAtTheFalsePointsItMayHave) {
+  const Folder folder;
+  const std::string truth = folder.write("truth.csv", "frame,track_id,x,y\n1,0,11,5\n2,0,12,5\n");
+  const std::string points =
+      folder.write("points.csv", "frame,time,x,y,amplitude\n1,1,11,5,9\n2,2,70,5,8\n2,2,12,5,7\n");
+  const auto score = [&](const std::string& allowed) {
+    const Outcome o = glint(
+        {"evaluate", "--truth", truth, "--baseline", points, "--false-points", allowed, "--json"});
+    EXPECT_EQ(o.code, 0) << o.err;
+    const auto json = nlohmann::json::parse(o.out);
+    EXPECT_FALSE(json.contains("ospa"));
+    return json["baseline"];
+  };
+  EXPECT_EQ(score("0.3")["detected"], 0.5);
+  EXPECT_EQ(score("0.3")["false_per_frame"], 0.0);
+  EXPECT_EQ(score("0.34")["detected"], 1.0);
+  EXPECT_EQ(score("0.34")["threshold"], 7.0);
+  const Outcome table =
+      glint({"evaluate", "--truth", truth, "--baseline", points, "--false-points", "1"});
+  EXPECT_NE(table.out.find("1.000 detected at 0.333 false"), std::string::npos) << table.out;
+  const std::string tracks = folder.write("tracks.csv", kTracks);
+  const Outcome both = glint({"evaluate", "--truth", truth, "--tracks", tracks, "--baseline",
+                              points, "--false-points", "1", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(both.out)["baseline"]["detected"], 1.0);
+  EXPECT_EQ(nlohmann::json::parse(both.out)["points"]["detected"], 1.0);
+}
+
+TEST(Evaluate, SaysWhatIsToBeScored) {
+  const Folder folder;
+  const std::string truth = folder.write("truth.csv", "frame,track_id,x,y\n");
+  const std::string tracks = folder.write("tracks.csv", kTracks);
+  const auto error = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"evaluate", "--truth", truth});
+    const Outcome o = glint(more);
+    EXPECT_EQ(o.code, 2);
+    return o.err;
+  };
+  EXPECT_NE(error({}).find("give --tracks"), std::string::npos);
+  EXPECT_NE(error({"--baseline", tracks}).find("needs --false-points"), std::string::npos);
+  EXPECT_NE(error({"--tracks", tracks, "--false-points", "1"}).find("give its points"),
+            std::string::npos);
+}
+
 TEST(Evaluate, NamesWhatIsMissing) {
   const Folder folder;
   const std::string truth = folder.write("truth.csv", "frame,track_id,x\n");
