@@ -74,15 +74,4 @@ FrameView MatchedFilter::response(FrameView whitened) {
   return map;
 }
 
-void MatchedFilter::points(FrameView whitened, double threshold, int radius,
-                           std::vector<Point>& points) {
-  FindPoints::Args args;
-  args.map = response(whitened);
-  args.threshold = static_cast<float>(threshold);
-  args.radius = radius;
-  args.points = &points;
-  args.workspace = &workspace_;
-  device_.run<FindPoints>(args);
-}
-
 }  // namespace glint

@@ -5,12 +5,11 @@
 #include "glint/kernels/core/device.hpp"
 #include "glint/kernels/core/frame.hpp"
 #include "glint/kernels/core/point_spread.hpp"
-#include "glint/kernels/find_points/find_points.hpp"
 
 namespace glint {
 
 /// What a single frame shows by itself: the frame correlated with the point spread, in units of the
-/// noise of the result, and its local maxima. The baseline of track-before-detect.
+/// noise of the result. The baseline of track-before-detect.
 class MatchedFilter {
  public:
   /// `psf_sigma` [px]; throws std::invalid_argument unless PointSpread::of() takes it.
@@ -18,16 +17,12 @@ class MatchedFilter {
   /// Sum of h z over the root of the sum of h^2, h the point spread at the pixel's centre, both
   /// sums clipped at the border: unit noise in, unit noise out. Valid until the next call.
   FrameView response(FrameView whitened);
-  /// Maxima of the response in their neighbourhood of `radius` [px] and above `threshold` [sigma].
-  /// Replaces `points`.
-  void points(FrameView whitened, double threshold, int radius, std::vector<Point>& points);
 
  private:
   Device device_;
   PointSpread spread_;
   Image<float> response_;
   std::vector<float> energy_x_, energy_y_;  ///< sum of squared weights inside the frame, by pixel
-  PointWorkspace workspace_;
 };
 
 }  // namespace glint

@@ -32,9 +32,9 @@ void find_all_points(const PointsOptions& options) {
 
 void add_points(Command& program) {
   auto options = std::make_shared<PointsOptions>();
-  Command command = program.subcommand(
-      "points",
-      "Points of single frames: local maxima of the matched filter (the baseline), or 5x5 units");
+  Command command = program.subcommand("points",
+                                       "Points of single frames: maxima of the matched filter (the "
+                                       "baseline), wavelets, or 5x5 units");
   add_frame_options(command, options->frames);
   command.option("--out", options->out, "points.csv").required();
   const auto setting = [&](const char* option, const char* key, const char* help) {
@@ -45,10 +45,10 @@ void add_points(Command& program) {
         },
         help);
   };
-  setting("--threshold", "points.threshold", "least value of the matched filter [sigma]");
+  setting("--detector", "points.detector", "matched-filter, wavelet or unit-5x5");
+  setting("--threshold", "points.threshold", "least value of the filter or the wavelets [sigma]");
   setting("--psf-sigma", "points.psf_sigma", "point spread of the matched filter [px]");
   command.footer(
-      "--set points.mode=unit_5x5 takes blocks of 5x5 pixels above the mean intensity instead.\n"
       "Example: how well does the best threshold do beside a tracker?\n"
       "  glint points clip.mp4 --add-noise 53 --out points.csv\n"
       "  glint evaluate --truth truth.csv --tracks tracks.csv --baseline points.csv");

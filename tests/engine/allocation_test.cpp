@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "counted_allocations.hpp"
+#include "glint/engine/frames/point_finder.hpp"
 #include "glint/engine/scenario/scenes.hpp"
 #include "glint/engine/trackers/registry.hpp"
 
@@ -56,6 +57,28 @@ TEST(Allocation, NoneInAWarmPreparer) {
     preparer.prepare(next->pixels, frame, next->time);
   }
   EXPECT_EQ(allocations - before, 0u);
+}
+
+TEST(Allocation, NoneInAWarmPointFinder) {
+  for (const auto detector :
+       {PointDetector::matched_filter, PointDetector::wavelet, PointDetector::unit_5x5}) {
+    Film film;
+    const Device device = Device::tbb(2);
+    FramePreparer preparer(FramesConfig{}, device);
+    PointsConfig config;
+    config.detector = detector;
+    config.threshold = 3, config.unit_threshold = 0;
+    PointFinder finder(config, device);
+    std::vector<PointMeasurement> points;
+    std::size_t before = 0, found = 0;
+    for (std::int64_t frame = 0; auto next = film.next(); ++frame) {
+      if (frame == kWarmUp) before = allocations, found = 0;
+      finder.find(preparer.prepare(next->pixels, frame, next->time), points);
+      found += points.size();
+    }
+    EXPECT_EQ(allocations - before, 0u) << static_cast<int>(detector);
+    EXPECT_GT(found, 0u);
+  }
 }
 
 class WarmTracker : public testing::TestWithParam<const char*> {};

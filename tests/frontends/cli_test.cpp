@@ -93,13 +93,14 @@ TEST(Cli, MaskedPixelsFindNothing) {
   for (int y = 0; y < mask.height(); ++y) std::fill_n(mask.view().row(y), mask.width(), 1.0f);
   NpyWriter(folder / "mask.npy").write(mask.view());
   const std::string out = folder / "p.csv";
-  ASSERT_EQ(glint(folder, "points " + clip + " --threshold 3 --out " + out).code, 0);
-  EXPECT_GT(read_points(out).size(), 0u);
-  ASSERT_EQ(glint(folder, "points " + clip + " --threshold 3 --mask " + (folder / "mask.npy") +
-                              " --out " + out)
-                .code,
-            0);
-  EXPECT_EQ(read_points(out).size(), 0u);
+  for (const std::string detector : {"matched-filter", "wavelet"}) {
+    const std::string points =
+        "points " + clip + " --threshold 3 --detector " + detector + " --out " + out;
+    ASSERT_EQ(glint(folder, points).code, 0);
+    EXPECT_GT(read_points(out).size(), 0u);
+    ASSERT_EQ(glint(folder, points + " --mask " + (folder / "mask.npy")).code, 0);
+    EXPECT_EQ(read_points(out).size(), 0u);
+  }
 }
 
 }  // namespace

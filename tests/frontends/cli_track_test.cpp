@@ -102,6 +102,23 @@ TEST(CliTrack, TrackersSideBySideWriteWhatTheyWriteAlone) {
   }
 }
 
+TEST(CliTrack, TakesItsPointsFromTheDetectorThatIsSet) {
+  const Folder folder;
+  const auto track = [&](const std::string& detector) {
+    const std::string out = folder / (detector + ".csv");
+    const Result result =
+        glint(folder,
+              "track scene:ir-clip --set scenes.ir-clip.frames=24 --quiet "
+              "--tracker pmht-imm --set points.threshold=4 --set points.detector=" +
+                  detector + " --out " + out);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return said_of_tracks(out);
+  };
+  const std::string matched = track("matched-filter"), wavelet = track("wavelet");
+  EXPECT_GT(std::ranges::count(wavelet, '\n'), 5);
+  EXPECT_NE(wavelet, matched);
+}
+
 TEST(CliTrack, WhatWasEstimatedStandsInTheHeader) {
   const Folder folder;
   std::string outs;

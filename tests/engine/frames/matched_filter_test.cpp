@@ -68,7 +68,7 @@ TEST(MatchedFilter, IsItsDefinitionAtEverySize) {
   }
 }
 
-TEST(MatchedFilter, ATargetIsOnePointWithItsDeflection) {
+TEST(MatchedFilter, PeaksAtATargetWithItsDeflection) {
   const PointSpread spread = PointSpread::of(1.0);
   Image<float> frame(31, 31);
   double energy = 0;
@@ -80,12 +80,12 @@ TEST(MatchedFilter, ATargetIsOnePointWithItsDeflection) {
     }
   }
   MatchedFilter filter(1.0, Device::serial());
-  std::vector<Point> points;
-  filter.points(frame.view(), 2, 1, points);
-  ASSERT_EQ(points.size(), 1u);
-  EXPECT_NEAR(points[0].x, 20, 1e-3);
-  EXPECT_NEAR(points[0].y, 11, 1e-3);
-  EXPECT_NEAR(points[0].amplitude, 30 * std::sqrt(energy), 1e-3);
+  const FrameView response = filter.response(frame.view());
+  EXPECT_NEAR(response(20, 11), 30 * std::sqrt(energy), 1e-3);
+  EXPECT_NEAR(response(19, 11), response(21, 11), 1e-3);
+  EXPECT_NEAR(response(20, 10), response(20, 12), 1e-3);
+  EXPECT_LT(response(20, 10), response(20, 11));
+  EXPECT_LT(response(19, 11), response(20, 11));
 }
 
 }  // namespace
