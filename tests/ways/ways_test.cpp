@@ -56,6 +56,7 @@ class Ways : public testing::TestWithParam<std::tuple<std::string, int>> {
  protected:
   Ways() {
     settings_ = kSettings + std::string("background_prime = ") + std::to_string(ahead()) + "\n";
+    if (takes_points()) settings_ += "[points]\ndetector = \"wavelet\"\n";
     std::ofstream(config_) << settings_;
     std::ofstream raw(raw_, std::ios::binary), npy(npy_, std::ios::binary);
     npy << npy_header();
@@ -74,9 +75,12 @@ class Ways : public testing::TestWithParam<std::tuple<std::string, int>> {
   static std::string tracker() { return std::get<0>(GetParam()); }
   static int ahead() { return std::get<1>(GetParam()); }
 
+  static bool takes_points() { return tracker() == "pmht-imm"; }
+
   static Given pushed() {
-    Engine engine(tracker(),
-                  {{"seed", 7}, {"background_frames", 12}, {"background_prime", ahead()}});
+    Settings settings{{"seed", 7}, {"background_frames", 12}, {"background_prime", ahead()}};
+    if (takes_points()) settings.push_back({"points.detector", "wavelet"});
+    Engine engine(tracker(), settings);
     Given given;
     const auto take = [&](const EngineResult& result) {
       ++given.results;
