@@ -137,12 +137,19 @@ bool Engine::push(SourceFrame frame) {
   room_.wait(lock, [&] { return ended_ || closed_ || (checkpoints_ == 0 && !(waits && full_)); });
   rethrow();
   if (closed_) throw std::logic_error("push() after finish(): make another engine");
+  frame.cues.insert(frame.cues.end(), cues_.begin(), cues_.end());
+  cues_.clear();
   bool kept = true;
   while (waiting_.size() >= settings_.queue) {
     // The frame behind it comes later than one that was not lost would.
     const std::int64_t lost = waiting_.front().frame.skipped + 1;
+    std::vector<Cue> cues = std::move(waiting_.front().frame.cues);
+    const double time = waiting_.front().frame.time;
     waiting_.pop_front();
-    (waiting_.empty() ? frame : waiting_.front().frame).skipped += lost;
+    SourceFrame& next = waiting_.empty() ? frame : waiting_.front().frame;
+    next.skipped += lost;
+    move_on(cues, next.time - time);
+    next.cues.insert(next.cues.begin(), cues.begin(), cues.end());
     ++dropped_, ++settled_;
     kept = false;
   }
@@ -153,6 +160,14 @@ bool Engine::push(SourceFrame frame) {
   frames_.notify_one();
   if (!kept) settled_or_idle_.notify_all();
   return kept;
+}
+
+void Engine::start(double x, double y, double vx, double vy, double sigma) {
+  const Cue cue = checked(Cue{x, y, vx, vy, sigma});
+  const std::scoped_lock lock(mutex_);
+  rethrow();
+  if (closed_) throw std::logic_error("start() after finish(): make another engine");
+  cues_.push_back(cue);
 }
 
 /// With mutex_ locked.
@@ -208,6 +223,7 @@ std::string Engine::checkpoint() {
   ByteWriter to = begin_checkpoint(scheduler_.label("Engine"));
   scheduler_.put_state(to);
   put_bytes(to, pushed_), put_bytes(to, dropped_), put_bytes(to, results_);
+  put_bytes(to, cues_);
   return seal_checkpoint(std::move(to));
 }
 
@@ -215,7 +231,9 @@ void Engine::take_state(ByteReader& from) {
   scheduler_.take_state(from, Scheduler::After::more);
   std::int64_t pushed = 0, dropped = 0;
   std::deque<EngineResult> results;
+  std::vector<Cue> cues;
   take_bytes(from, pushed), take_bytes(from, dropped), take_bytes(from, results);
+  take_bytes(from, cues);
   require_bytes(from.left() == 0, "it is too long");
   require_frame_number(pushed);
   require_bytes(dropped >= 0 && dropped <= pushed, "the counts of frames do not fit");
@@ -227,6 +245,7 @@ void Engine::take_state(ByteReader& from) {
     }
   }
   pushed_ = settled_ = pushed, dropped_ = dropped, results_ = std::move(results);
+  cues_ = std::move(cues);
 }
 
 void Engine::restore(std::string_view checkpoint) {

@@ -85,6 +85,16 @@ class Engine {
   /// Frames that hold points, alone or beside pixels, come in here too.
   bool push(SourceFrame frame);
 
+  /// Somebody's word for a target at (x, y) [px] with velocity (vx, vy) [px/s] in the frame that is
+  /// pushed next: every tracker starts a confirmed track there. `sigma` is the standard deviation
+  /// of x and of y [px], NaN what the tracker takes a position to err by: a point's own error, 2 px
+  /// on frames. A velocity that is not given (NaN), or comes before the first frame, is looked for.
+  /// A target that has a track gets no second one; outside the frame none starts. Throws
+  /// std::invalid_argument for other numbers, std::logic_error after finish(), and what ended the
+  /// engine.
+  void start(double x, double y, double vx = Cue::kUnknown, double vy = Cue::kUnknown,
+             double sigma = Cue::kUnknown);
+
   /// The next result, waited for at most `timeout` [s]; nothing if there is none by then. One that
   /// `wants` (which must not call the engine) says no to stays the next one. Throws what ended the
   /// engine once the results before it were given.
@@ -151,6 +161,7 @@ class Engine {
   std::condition_variable frames_;           // thread_ waits for them
   std::condition_variable settled_or_idle_;  // drain(), finish() and checkpoint() wait for it
   std::deque<Waiting> waiting_;
+  std::vector<Cue> cues_;                  // of the next frame
   std::deque<Clock::time_point> at_work_;  // when their frames were pushed
   std::deque<EngineResult> results_;
   std::int64_t pushed_ = 0, dropped_ = 0, settled_ = 0;  // settled_: tracked or dropped

@@ -18,6 +18,7 @@ struct Token {
   std::optional<SourceFrame> source;
   Scan scan;
   std::vector<PointMeasurement> points;  // what scan.points shows
+  std::vector<Cue> cues;
   std::vector<std::vector<TrackPoint>> reported;
   bool failed = false;       // not to be delivered: its own failure, or an earlier frame's
   std::exception_ptr error;  // its own

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "glint/engine/cue.hpp"
 #include "glint/engine/point_measurement.hpp"
 #include "glint/kernels/core/frame.hpp"
 
@@ -17,8 +18,9 @@ struct Scan {
   double noise_sigma = 1;             ///< median of the noise map [grey levels]
   double sensor_x = 0, sensor_y = 0;  ///< where it stands, for points of range and azimuth [px]
   std::span<const PointMeasurement>
-      points;          ///< of this frame; only if some tracker feeds on points
-  bool looked = true;  ///< false: the sensor of points did not look, which is no miss
+      points;                 ///< of this frame; only if some tracker feeds on points
+  bool looked = true;         ///< false: the sensor of points did not look, which is no miss
+  std::span<const Cue> cues;  ///< targets that are said to be here: a track starts on each
 };
 
 }  // namespace glint

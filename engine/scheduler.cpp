@@ -107,7 +107,10 @@ void Scheduler::put_state(ByteWriter& to) const {
   }
   put_bytes(to, s.next_frame), put_bytes(to, s.delivered);
   s.preparer.save(to);
-  for (const TrackerStage& entry : s.trackers) entry.tracker->save(to), put_bytes(to, entry.log);
+  for (const TrackerStage& entry : s.trackers) {
+    entry.tracker->save(to);
+    put_bytes(to, entry.log), put_bytes(to, entry.cues);
+  }
 }
 
 void Scheduler::take_state(ByteReader& from, After after) {
@@ -117,7 +120,10 @@ void Scheduler::take_state(ByteReader& from, After after) {
   require_frame_number(s.next_frame), require_frame_number(s.delivered);
   if (s.next_frame > 0) s.held.clear();  // the state holds what was learned
   s.preparer.restore(from);
-  for (TrackerStage& entry : s.trackers) entry.tracker->restore(from), take_bytes(from, entry.log);
+  for (TrackerStage& entry : s.trackers) {
+    entry.tracker->restore(from);
+    take_bytes(from, entry.log), take_bytes(from, entry.cues);
+  }
   require_bytes(after == After::more || from.left() == 0, "it is too long");
   s.started = s.finished = false;
 }

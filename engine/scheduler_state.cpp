@@ -36,6 +36,7 @@ void Scheduler::State::prepare(Token& token) {
     } else if (finds_points) {
       finder.find(token.scan, token.points);
     }
+    token.cues = std::move(source.cues);
     token.source.reset();
     if (finds_points) token.scan.points = token.points;
   });
@@ -45,6 +46,7 @@ void Scheduler::State::prepare(Token& token) {
 void Scheduler::State::track(std::size_t i, Token& token) {
   TrackerStage& entry = trackers[i];
   entry.stage.pass(token, [&] {
+    token.scan.cues = entry.cues.due(token.cues, token.scan, entry.tracker->feed());
     if (token.scan.looked || entry.tracker->feed() != Feed::points) {
       entry.tracker->step(token.scan, entry.log);
     }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "glint/engine/cue.hpp"
 #include "glint/engine/held_frames.hpp"
 #include "glint/engine/pipeline_stage.hpp"
 #include "glint/engine/scheduler.hpp"
@@ -22,6 +23,7 @@ struct TrackerStage {
   std::unique_ptr<Tracker> tracker;
   TrackLog log;
   Stage stage;
+  TrackerCues cues = {};
 };
 
 /// What a Scheduler holds, and the stages that its frames pass.

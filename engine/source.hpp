@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "glint/engine/cue.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/engine/tracks/track_log.hpp"
 #include "glint/kernels/core/raw_pixels.hpp"
@@ -22,6 +23,7 @@ struct SourceFrame {
   double sensor_x = 0, sensor_y = 0;  ///< position of the sensor of range and azimuth [px]
   bool looked = true;  ///< false: it did not look; trackers of points alone pass the frame over
   std::int64_t skipped = 0;  ///< frames lost since the one before
+  std::vector<Cue> cues = {};  ///< a track starts on each in this frame
 };
 
 /// Copies the pixels row by row without gaps, and releases their owner. Throws as checked() does.

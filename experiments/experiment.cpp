@@ -28,6 +28,8 @@ constexpr std::array kExperiments{
     ExperimentEntry{"consistency", "what trackers state about themselves at 3 and 6 dB", 20,
                     run_consistency},
     ExperimentEntry{"dim-field", "two hundred targets in 512x512 pixels", 4, run_dim_field, true},
+    ExperimentEntry{"cue", "a cue within 3 px of a target at 3 dB, and one upon noise", 20,
+                    run_cue},
     ExperimentEntry{"hpmht-table2",
                     "a dark aircraft before clouds, sensor_area 100 px^2: P-HPMHT table 2", 20,
                     run_hpmht_table_2, true},

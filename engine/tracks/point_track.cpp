@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glint/engine/tracks/point_track.hpp"
 
+#include <numbers>
 #include <utility>
 
 namespace glint {
@@ -23,6 +24,16 @@ void keep_to_known(PointTrackConfig& config) {
   config.initiate = false;
   config.merge_scans = 0;
   config.life.halt_misses = 0, config.life.halt_existence = 0;
+}
+
+KnownTarget known_target(const Cue& cue, double rate, double speed_max) {
+  KnownTarget target{{cue.x, 0, cue.y, 0}, cue.sigma};
+  if (cue.moves()) {
+    target.state(1) = cue.vx / rate, target.state(3) = cue.vy / rate;
+  } else {
+    target.velocity_sd = speed_max * std::numbers::inv_sqrt3;  // of a uniform one
+  }
+  return target;
 }
 
 void report(PointTrack& track, const ModeProbability& probability, const StepTime& at, double rate,

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "glint/engine/config.hpp"
+#include "glint/engine/cue.hpp"
 #include "glint/engine/filters/gaussian.hpp"
 #include "glint/engine/tracks/step_clock.hpp"
 #include "glint/engine/tracks/track_life.hpp"
@@ -47,6 +48,21 @@ struct PointTrack {
                     s.merged);
   }
 };
+
+/// A target that is told to a tracker, in the tracker's own time.
+struct KnownTarget {
+  Eigen::Vector4d state = Eigen::Vector4d::Zero();  ///< [x vx y vy]: [px], [px/time]
+  /// Standard deviations [px], [px/time]; NaN: the tracker's own.
+  double position_sd = Cue::kUnknown, velocity_sd = Cue::kUnknown;
+
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.state, s.position_sd, s.velocity_sd);
+  }
+};
+/// `rate`: velocities of the tracker times this are px/s. One that is not known is any up to
+/// `speed_max` [px/time] along each axis.
+KnownTarget known_target(const Cue& cue, double rate, double speed_max);
 
 /// Tells the log of a track at a scan: its point, that it is confirmed or has ended; a tentative
 /// one that has ended never was. `rate`: velocities times this are px/s.

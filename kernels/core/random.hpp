@@ -23,6 +23,7 @@ enum class Purpose : std::uint32_t {
   birth_jitter = 11,
   kmeans = 12,
   spawn = 13,
+  cue = 14,
 };
 
 /// Address of a stream of draws; the item (particle, pixel, ...) and the draw index complete it.

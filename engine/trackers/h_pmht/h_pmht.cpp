@@ -62,6 +62,7 @@ void HPmht::step(const Scan& scan, TrackLog& log) {
   update_lives();
   report(log);
   remove_ended(log);
+  take_cues(scan);
   add_starts(log);
   if (config_.initiate) add_candidates(scan);
 }
@@ -109,13 +110,32 @@ BatchTarget HPmht::target_at(const Start& at, std::size_t first, double proporti
   target.noise = config_.process_noise;
   target.prior_x.mean << at.x, at.vx;
   target.prior_y.mean << at.y, at.vy;
+  const auto or_set = [](double told, double set) { return told > 0 ? told : set; };
   target.prior_x.covariance =
-      Eigen::Vector2d(config_.position_variance, config_.velocity_variance).asDiagonal();
+      Eigen::Vector2d(or_set(at.position_variance, config_.position_variance),
+                      or_set(at.velocity_variance, config_.velocity_variance))
+          .asDiagonal();
   target.prior_y.covariance = target.prior_x.covariance;
   target.origin_x = target.prior_x.mean, target.origin_y = target.prior_y.mean;
   const double extent = extent_of(config_);
   target.states.fill({at.x, at.y, at.vx, at.vy, extent, extent, proportion});
   return target;
+}
+
+// A candidate beside the new track ends in the next scan.
+void HPmht::take_cues(const Scan& scan) {
+  const double rate = window_.back().rate;
+  for (const Cue& cue : scan.cues) {
+    bool followed = false;
+    for (std::size_t k = 0; k < targets_.size() && !followed; ++k) {
+      const BatchState& s = last_state(targets_[k]);
+      followed = lives_[k].id != 0 && std::hypot(s.x - cue.x, s.y - cue.y) < config_.separation;
+    }
+    if (followed) continue;
+    const double sigma = cue.sigma_or(0), speed = config_.speed_max;
+    starts_.push_back(cue.moves() ? Start{cue.x, cue.y, cue.vx / rate, cue.vy / rate, sigma * sigma}
+                                  : Start{cue.x, cue.y, 0, 0, sigma * sigma, speed * speed / 3});
+  }
 }
 
 void HPmht::add_starts(TrackLog& log) {

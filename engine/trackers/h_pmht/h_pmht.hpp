@@ -35,10 +35,12 @@ class HPmht : public TrackerOf<HPmht> {
 
  private:
   struct Start {
-    double x, y, vx, vy;
+    double x, y, vx, vy;  ///< [px], [px/frame]
+    /// Variances [px^2], [px^2/frame^2]; 0: those of the settings.
+    double position_variance = 0, velocity_variance = 0;
     template <class Self>
     static auto fields(Self& s) {
-      return std::tie(s.x, s.y, s.vx, s.vy);
+      return std::tie(s.x, s.y, s.vx, s.vy, s.position_variance, s.velocity_variance);
     }
   };
   struct WindowScan {
@@ -64,6 +66,7 @@ class HPmht : public TrackerOf<HPmht> {
   CellRule rule_of(const Frame& frame);
   /// A target at `at` one step before scan `first`.
   BatchTarget target_at(const Start& at, std::size_t first, double proportion) const;
+  void take_cues(const Scan& scan);
   void add_starts(TrackLog& log);
   void add_candidates(const Scan& scan);
   bool crowded(double x, double y) const;

@@ -39,6 +39,7 @@ void ImmPdaAi::step(const Scan& scan, TrackLog& log) {
     update(track, at);
   }
   end_duplicates();
+  take_cues(scan, at);
   start_known(at);
   if (config_.initiate) start_from_free_points(at);
   for (Track& track : tracks_) {
@@ -130,18 +131,20 @@ void ImmPdaAi::end_duplicates() {
 }
 
 void ImmPdaAi::restored() const {
-  const Imm bank = bank_at(Eigen::Vector4d::Zero());
+  const Imm bank = bank_at({});
   for (const Track& track : tracks_) {
     require_frame_number(track.last_seen);
     require_bytes(track.imm.alike(bank), "a target moves by other models");
   }
 }
 
-/// Both models at `state`, [x vx y vy].
-Imm ImmPdaAi::bank_at(const Eigen::Vector4d& state) const {
+/// Both models at the target.
+Imm ImmPdaAi::bank_at(const KnownTarget& target) const {
   Mode<ConstantVelocity> slow{{config_.noise_slow}, {}};
-  slow.belief.mean = state;
-  const double p = noise_(0, 0), v = config_.velocity_sd * config_.velocity_sd;
+  slow.belief.mean = target.state;
+  const double sd = target.position_sd;
+  const double p = std::isnan(sd) ? noise_(0, 0) : sd * sd;
+  const double v = config_.velocity_sd * config_.velocity_sd;
   slow.belief.covariance.diagonal() << p, v, p, v;
   Mode<ConstantVelocity> fast{{config_.noise_fast}, slow.belief};
   return {{slow, fast}, staying(2, config_.stay), {0.5, 0.5}};
@@ -153,10 +156,20 @@ void ImmPdaAi::add(const Imm& imm, double amplitude, bool known, const StepTime&
        imm});
 }
 
+/// A tentative track beside the new one ends in the next scan.
+void ImmPdaAi::take_cues(const Scan& scan, const StepTime& at) {
+  for (const Cue& cue : scan.cues) {
+    const bool followed = std::ranges::any_of(tracks_, [&](const Track& track) {
+      return track.life.confirmed() && track.near({cue.x, cue.y}, config_.separation);
+    });
+    if (!followed) known_.push_back(known_target(cue, at.velocity_scale, 0));
+  }
+}
+
 /// Known targets are as bright as the brightest point that could be theirs.
 void ImmPdaAi::start_known(const StepTime& at) {
-  for (const Eigen::Vector4d& state : known_) {
-    const Imm imm = bank_at(state);
+  for (const KnownTarget& target : known_) {
+    const Imm imm = bank_at(target);
     gate(imm);
     const auto brightest = std::ranges::max_element(amplitudes_);
     add(imm, brightest == amplitudes_.end() ? config_.start_amplitude : *brightest, true, at);
@@ -182,7 +195,7 @@ void ImmPdaAi::start_from_free_points(const StepTime& at) {
   for (const std::uint32_t i : free_) {
     const Eigen::Vector2d& position = points_.positions[i];
     if (near_a_track(position)) continue;
-    add(bank_at({position.x(), 0, position.y(), 0}), amplitude[i], false, at);
+    add(bank_at({{position.x(), 0, position.y(), 0}}), amplitude[i], false, at);
   }
 }
 

@@ -59,7 +59,7 @@ class ImmPdaAi : public TrackerOf<ImmPdaAi> {
   }
   /// A confirmed track that is at (x, y) [px] with velocity (vx, vy) [px/frame] at the next scan;
   /// the scans after that move it.
-  void start(double x, double y, double vx, double vy) { known_.push_back({x, vx, y, vy}); }
+  void start(double x, double y, double vx, double vy) { known_.push_back({{x, vx, y, vy}}); }
   void step(const Scan& scan, TrackLog& log) override;
 
   template <class Self>
@@ -84,8 +84,9 @@ class ImmPdaAi : public TrackerOf<ImmPdaAi> {
   void update(Track& track, const StepTime& at);
   void update_life(Track& track, const StepTime& at) const;
   void end_duplicates();
-  Imm bank_at(const Eigen::Vector4d& state) const;
+  Imm bank_at(const KnownTarget& target) const;
   void add(const Imm& imm, double amplitude, bool known, const StepTime& at);
+  void take_cues(const Scan& scan, const StepTime& at);
   void start_known(const StepTime& at);
   void start_from_free_points(const StepTime& at);
   bool near_a_track(const Eigen::Vector2d& position) const;
@@ -96,8 +97,8 @@ class ImmPdaAi : public TrackerOf<ImmPdaAi> {
   AmplitudeModel amplitude_model_;
   double miss_;  ///< 1 - P_D P_G
   StepClock clock_;
-  std::vector<Eigen::Vector4d> known_;  ///< [x vx y vy]
-  std::vector<Track> tracks_;           ///< by rising id
+  std::vector<KnownTarget> known_;
+  std::vector<Track> tracks_;  ///< by rising id
   std::int64_t next_id_ = 1;
 
   ScanPoints points_;

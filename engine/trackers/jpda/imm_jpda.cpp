@@ -62,6 +62,7 @@ void ImmJpda::step(const Scan& scan, TrackLog& log) {
   std::erase_if(offered_, [&](std::uint32_t j) { return !points_.free(j); });
   associate(tentative_, at);
   end_duplicates();
+  take_cues(scan, at);
   start_known(at);
   start_tracks(at);
   report(confirmed_, at, log);
@@ -131,14 +132,32 @@ void ImmJpda::end_duplicates() {
   }
 }
 
+/// Velocities of tracks times this are px/s.
+double ImmJpda::rate(const StepTime& at) const {
+  return config_.clock == TimeUnit::frames ? at.velocity_scale : 1;
+}
+
+/// A tentative track beside the new one ends in the next scan.
+void ImmJpda::take_cues(const Scan& scan, const StepTime& at) {
+  for (const Cue& cue : scan.cues) {
+    const bool followed = std::ranges::any_of(confirmed_.tracks, [&](const PointTrack& track) {
+      return track.near({cue.x, cue.y}, config_.separation);
+    });
+    if (!followed) known_.push_back(known_target(cue, rate(at), config_.speed_max));
+  }
+}
+
 void ImmJpda::start_known(const StepTime& at) {
-  const double sd = config_.position_sd;
-  for (const Eigen::Vector4d& mean : known_) {
+  for (const KnownTarget& target : known_) {
+    const Eigen::Vector4d& mean = target.state;
+    const bool said = !std::isnan(target.position_sd);
+    const double sd = said ? target.position_sd : config_.position_sd;
+    const double speed = std::isnan(target.velocity_sd) ? config_.velocity_sd : target.velocity_sd;
     const Eigen::Matrix2d p = sd > 0 ? Eigen::Matrix2d(sd * sd * Eigen::Matrix2d::Identity())
                                      : confirmed_.window.noise_at({mean(0), mean(2)}, place_);
     Gaussian<4> state;
     state.mean = mean;
-    state.covariance *= config_.velocity_sd * config_.velocity_sd;
+    state.covariance *= speed * speed;
     state.covariance(Eigen::seqN(0, 2, 2), Eigen::seqN(0, 2, 2)) = p;
     add(confirmed_, state, TrackPoint::kUnknown, at);
   }
@@ -195,9 +214,8 @@ void ImmJpda::move_confirmed() {
 }
 
 void ImmJpda::report(TrackSet& set, const StepTime& at, TrackLog& log) {
-  const double rate = config_.clock == TimeUnit::frames ? at.velocity_scale : 1;
   for (std::size_t i = 0; i < set.tracks.size(); ++i) {
-    glint::report(set.tracks[i], set.window.estimate(i).probability(), at, rate, log);
+    glint::report(set.tracks[i], set.window.estimate(i).probability(), at, rate(at), log);
   }
 }
 

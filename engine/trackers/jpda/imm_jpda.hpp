@@ -55,7 +55,7 @@ class ImmJpda : public TrackerOf<ImmJpda> {
   Feed feed() const override { return Feed::points; }
   /// A confirmed track that is at (x, y) [px] with velocity (vx, vy) [px/time] at the next scan;
   /// the scans after that move it.
-  void start(double x, double y, double vx, double vy) { known_.push_back({x, vx, y, vy}); }
+  void start(double x, double y, double vx, double vy) { known_.push_back({{x, vx, y, vy}}); }
   void step(const Scan& scan, TrackLog& log) override;
   std::vector<std::string> notes() const override;
 
@@ -86,16 +86,18 @@ class ImmJpda : public TrackerOf<ImmJpda> {
   void update(TrackSet& set, const StepTime& at);
   void end_duplicates();
   void move_confirmed();
+  void take_cues(const Scan& scan, const StepTime& at);
   void start_known(const StepTime& at);
   void start_tracks(const StepTime& at);
   void add(TrackSet& set, const Gaussian<4>& state, double amplitude, const StepTime& at);
+  double rate(const StepTime& at) const;
   bool near_a_track(const Eigen::Vector2d& position) const;
   void report(TrackSet& set, const StepTime& at, TrackLog& log);
 
   ImmJpdaConfig config_;
   StepClock clock_;
   double last_time_ = 0, elapsed_ = 1;  // [s]; since the last scan [time]
-  std::vector<Eigen::Vector4d> known_;
+  std::vector<KnownTarget> known_;
   TrackSet confirmed_, tentative_;
   std::int64_t next_id_ = 1;
   std::int64_t scans_ = 0, approximate_ = 0, trimmed_ = 0, independent_ = 0;

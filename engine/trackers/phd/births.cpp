@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "glint/engine/state/bytes.hpp"
+#include "glint/engine/trackers/phd/cued_particles.hpp"
 #include "glint/kernels/birth_scores/birth_scores.hpp"
 #include "glint/kernels/core/cells.hpp"
 #include "glint/kernels/core/tiles.hpp"
@@ -75,17 +76,10 @@ void BirthFrame::restored() const {
       "a birth score is negative or not finite");
 }
 
-std::uint32_t Births::draw_mode(std::uint32_t word) const {
-  float u = uniform(word);
-  std::uint32_t mode = 0;
-  while (mode + 1 < birth_mode_.size() && u >= birth_mode_[mode]) u -= birth_mode_[mode++];
-  return mode;
-}
+std::uint32_t Births::draw_mode(std::uint32_t word) const { return drawn_mode(birth_mode_, word); }
 
 float Births::draw_intensity(std::uint32_t word) const {
-  // Uniform in decibels: dim targets get as many particles as bright ones.
-  const double ratio = double{intensity_high_} / intensity_low_;
-  return static_cast<float>(intensity_low_ * std::pow(ratio, uniform(word)));
+  return drawn_intensity(intensity_low_, intensity_high_, word);
 }
 
 void Births::score(const Frame& z, const PixelMask& mask) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "glint/engine/trackers/phd/bernoulli.hpp"
+#include "glint/engine/trackers/phd/cued_particles.hpp"
 
 namespace glint {
 namespace {
@@ -25,6 +26,7 @@ FollowedTargets::FollowedTargets(const FollowedTargetsConfig& config, const Moti
                                  const Device& device, std::uint64_t seed)
     : config_(config),
       survival_(motion.survival),
+      speed_max_(motion.speed_max),
       modes_(motion.bank().modes.size()),
       filters_(motion.bank(), config.target_particles, device, seed ^ kTargets) {}
 
@@ -45,9 +47,35 @@ void FollowedTargets::restored() const {
   require_bytes(filters_.size() == targets_.size(), "targets and filters do not fit");
 }
 
-void FollowedTargets::follow(const Frame& z, const StepTime& at, TrackLog& log) {
+/// Before the frame's update, after its prediction.
+void FollowedTargets::start(const Cue& cue, const StepTime& at, TrackLog& log) {
+  const auto same = std::ranges::find_if(targets_, [&](const FollowedTarget& t) {
+    const double step = t.detected == at.frame ? 0 : at.step;  // one of a cue is of this frame
+    return std::hypot(t.estimate.x + step * t.estimate.vx - cue.x,
+                      t.estimate.y + step * t.estimate.vy - cue.y) < config_.separation;
+  });
+  FollowedTarget* target = same == targets_.end() ? nullptr : &*same;
+  if (target == nullptr) {
+    filters_.add(cue, at, speed_max_);
+    target = &targets_.emplace_back();
+    target->id = next_id_++;
+    target->hits = 0;  // the frame's update is the first
+    target->existence = kCueExistence;
+    target->detected = at.frame;
+    target->estimate.x = cue.x, target->estimate.y = cue.y;
+    target->estimate.mode_probability.resize(kMostModes);
+  } else if (!target->confirmed) {
+    log.confirm(target->id, target->detected);
+  }
+  target->cued = target->confirmed = true;
+  target->existence = std::max(target->existence, kCueExistence);
+}
+
+void FollowedTargets::follow(const Frame& z, const StepTime& at, TrackLog& log,
+                             std::span<const Cue> cues) {
   confirmed_now_.clear();
   filters_.predict(at.frame, at.step);
+  for (const Cue& cue : cues) start(cue, at, log);
   const std::span<const TargetUpdate> updates = filters_.update(z, at.frame);
   for (std::size_t t = 0; t < targets_.size(); ++t) update_life(targets_[t], updates[t], at);
   end_duplicates();
@@ -78,7 +106,7 @@ void FollowedTargets::note_support(FollowedTarget& target, double survival, doub
 
 void FollowedTargets::update_life(FollowedTarget& target, const TargetUpdate& update,
                                   const StepTime& at) const {
-  const double survival = std::pow(survival_, at.step);
+  const double survival = target.detected == at.frame ? 1 : std::pow(survival_, at.step);
   target.existence = bernoulli_update(target.existence, survival, update.mean_ratio);
   if (update.mean_ratio > 0) target.estimate = update.estimate;
   note_support(target, survival, update.mean_ratio, at.frame);
@@ -117,7 +145,7 @@ void FollowedTargets::report(FollowedTarget& target, const StepTime& at, TrackLo
   point.existence = target.existence;
   const bool confirmed = target.confirmed || target.hits >= config_.confirm_hits;
   // What is not likely to be there is not said to be, whatever its past.
-  const bool likely = target.existence >= config_.existence;
+  const bool likely = target.cued || target.existence >= config_.existence;
   point.status = confirmed && likely ? TrackStatus::confirmed : TrackStatus::tentative;
   // It is likelier to live than to have ended before: then it was there in the frames between, too.
   if (confirmed && target.recovered) log.confirm(target.id, target.first_missed);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "glint/engine/config.hpp"
+#include "glint/engine/cue.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/engine/trackers/phd/peaks.hpp"
 #include "glint/engine/trackers/phd/target_filters.hpp"
@@ -44,6 +45,7 @@ struct FollowedTarget {
   double existence = 1;  ///< r_k, see bernoulli_update()
   int hits = 1, misses = 0;
   bool confirmed = false, ended = false;
+  bool cued = false;          ///< somebody has said that it is there
   std::int64_t detected = 0;  ///< frame of the detection, k0
   /// Likelihood of having lived till now over that of having ended when it was likeliest, at
   /// most 1; e^S_k of the ratio test, which knows no survival.
@@ -54,7 +56,7 @@ struct FollowedTarget {
 
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.id, s.existence, s.hits, s.misses, s.confirmed, s.ended, s.detected,
+    return std::tie(s.id, s.existence, s.hits, s.misses, s.confirmed, s.ended, s.cued, s.detected,
                     s.support, s.first_missed, s.estimate);
   }
   void restored() const;
@@ -70,8 +72,9 @@ class FollowedTargets {
 
   /// Predicts and updates all targets by the frame `z`, counts hits and misses, ends tracks, and
   /// reports to the log. A track that ends loses its points after the frame that is the likeliest
-  /// for its end there.
-  void follow(const Frame& z, const StepTime& at, TrackLog& log);
+  /// for its end there. Each of the `cues` is a new target, confirmed from the first, or confirms
+  /// the one that is followed within `separation` of it.
+  void follow(const Frame& z, const StepTime& at, TrackLog& log, std::span<const Cue> cues = {});
   /// Starts a track from a cluster of particles. False, and no track, if another is nearer than
   /// `separation`.
   bool detect(const Cluster& cluster, const StepTime& at, TrackLog& log);
@@ -88,6 +91,7 @@ class FollowedTargets {
   void restored() const;
 
  private:
+  void start(const Cue& cue, const StepTime& at, TrackLog& log);
   void update_life(FollowedTarget& target, const TargetUpdate& update, const StepTime& at) const;
   void note_support(FollowedTarget& target, double survival, double ratio,
                     std::int64_t frame) const;
@@ -97,7 +101,7 @@ class FollowedTargets {
   void confirm(std::size_t t, TrackLog& log);
 
   FollowedTargetsConfig config_;
-  double survival_;
+  double survival_, speed_max_;
   std::size_t modes_;
   TargetFilters filters_;
   std::vector<FollowedTarget> targets_;

@@ -76,6 +76,23 @@ void Identities::see(Track& track, const Peak& peak, double step) const {
   track.mass = peak.mass;
 }
 
+std::uint32_t Identities::start(const Cue& cue, const StepTime& at) {
+  for (Track& t : tracks_) {
+    if (distance(t.x + at.step * t.vx, t.y + at.step * t.vy, cue.x, cue.y) >= config_.separation) {
+      continue;
+    }
+    t.hits = std::max(t.hits, config_.confirm_hits - 1);
+    t.existence = std::max(t.existence, kCueExistence);
+    return 0;
+  }
+  Track track{next_id_++, at.frame, config_.confirm_hits};
+  if (cue.moves()) track.vx = cue.vx / at.velocity_scale, track.vy = cue.vy / at.velocity_scale;
+  track.x = cue.x - at.step * track.vx, track.y = cue.y - at.step * track.vy;
+  track.existence = track.mass = kCueExistence;
+  tracks_.push_back(track);
+  return track.id;
+}
+
 void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32_t> members,
                         Particles& particles, const StepTime& at, std::size_t modes,
                         TrackLog& log) {

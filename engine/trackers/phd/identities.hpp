@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "glint/engine/config.hpp"
+#include "glint/engine/cue.hpp"
 #include "glint/engine/trackers/phd/peaks.hpp"
 #include "glint/engine/tracks/track_log.hpp"
 
@@ -34,6 +35,11 @@ class Identities {
   /// are sorted by falling mass: of two that carry one label the heavier takes it.
   void assign(std::span<const Peak> peaks, std::span<const std::uint32_t> members,
               Particles& particles, const StepTime& at, std::size_t modes, TrackLog& log);
+
+  /// Before assign(): a confirmed track begins where a cue says, and particles that carry its id
+  /// are its own. A track that is expected within `separation` there is confirmed by its next peak
+  /// instead, and none begins: 0.
+  std::uint32_t start(const Cue& cue, const StepTime& at);
 
   /// A track that the last assign() confirmed.
   struct Confirmed {

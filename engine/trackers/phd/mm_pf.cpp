@@ -39,7 +39,7 @@ void MmPf::step(const Scan& scan, TrackLog& log) {
     targets_.set_appearance(appearance_);
   }
   const StepTime at = clock_.tick(scan);
-  targets_.follow(scan.whitened, at, log);
+  targets_.follow(scan.whitened, at, log, scan.cues);
   detect(scan.whitened, at, log);
 }
 

@@ -37,7 +37,7 @@ void MmPhd::step(const Scan& scan, TrackLog& log) {
     backward_.set_appearance(appearance_);
   }
   const StepTime at = clock_.tick(scan);
-  targets_.follow(scan.whitened, at, log);
+  targets_.follow(scan.whitened, at, log, scan.cues);
   detect(scan.whitened, at, log);
   const std::span<const FollowedTarget> targets = targets_.targets();
   for (const std::size_t t : targets_.confirmed_now()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "glint/engine/trackers/phd/cued_particles.hpp"
 #include "glint/engine/trackers/phd/particle_steps.hpp"
 #include "glint/engine/trackers/phd/resident_particles.hpp"
 
@@ -88,6 +89,21 @@ void PhdFilter::give_birth(const Frame& z, std::int64_t frame, double step, cons
   const std::size_t born =
       births_.draw({z, frame, step, cells_, config_.clutter, mask}, particles_.arrays(), survivors);
   particles_.resize(survivors + born);
+}
+
+void PhdFilter::add(const Cue& cue, const StepTime& at, double mass, std::uint32_t label) {
+  const std::size_t first = particles_.size();
+  const auto count = static_cast<std::size_t>(config_.particles_per_target);
+  particles_.resize(first + count);
+  Particles& p = particles_.arrays();
+  const RandomKey key =
+      random_key(seed_ ^ (std::uint64_t{label} << 32), index_of(at.frame), Purpose::cue);
+  draw_cued({bank_, appearance_, config_.speed_max, key}, cue, at, p, first, count);
+  const auto begin = static_cast<std::ptrdiff_t>(first);
+  std::fill_n(p.weight.begin() + begin, count,
+              static_cast<float>(mass / config_.particles_per_target));
+  std::fill_n(p.label.begin() + begin, count, label);
+  p.for_each_array([&](auto& a) { device_.send(std::span(a).subspan(first, count)); });
 }
 
 void PhdFilter::update(const Frame& z, std::int64_t frame) {

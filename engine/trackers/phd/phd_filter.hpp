@@ -5,12 +5,14 @@
 #include <string>
 #include <tuple>
 
+#include "glint/engine/cue.hpp"
 #include "glint/engine/frames/target_appearance.hpp"
 #include "glint/engine/scan.hpp"
 #include "glint/engine/trackers/phd/births.hpp"
 #include "glint/engine/trackers/phd/motion_bank.hpp"
 #include "glint/engine/trackers/phd/pixel_mask.hpp"
 #include "glint/engine/trackers/phd/resident_particles.hpp"
+#include "glint/engine/tracks/step_clock.hpp"
 #include "glint/kernels/cell_weights/cell_weights.hpp"
 #include "glint/kernels/core/device.hpp"
 #include "glint/kernels/core/particles.hpp"
@@ -56,6 +58,8 @@ class PhdFilter {
   /// `noise_scale` multiplies the process noise's standard deviation of each survivor, empty = 1.
   void predict(const Frame& z, std::int64_t frame, double step, const PixelMask& mask,
                std::span<const float> noise_scale = {});
+  /// After predict(): adds particles about a cue that sum to `mass` and carry `label`.
+  void add(const Cue& cue, const StepTime& at, double mass, std::uint32_t label);
   /// P-PHD (13)-(16): likelihood over the window, w l / (clutter + B).
   void update(const Frame& z, std::int64_t frame);
   /// Sets the weights of these particles to 0.

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "glint/engine/trackers/phd/cued_particles.hpp"
 #include "glint/engine/trackers/phd/kmeans.hpp"
 #include "glint/engine/tracks/tracker_state.hpp"
 
@@ -41,6 +42,9 @@ void SmcPhd::step(const Scan& scan, TrackLog& log) {
   const StepTime at = clock_.tick(scan);
   const auto scales = noise_.fixed() ? std::span<const float>() : noise_.scales(filter_.labels());
   filter_.predict(scan.whitened, scan.frame, at.step, no_mask_, scales);
+  for (const Cue& cue : scan.cues) {
+    if (const auto id = identities_.start(cue, at)) filter_.add(cue, at, kCueExistence, id);
+  }
   filter_.update(scan.whitened, scan.frame);
   report(scan, at, log);
   filter_.resample(scan.frame);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "glint/engine/state/bytes.hpp"
+#include "glint/engine/trackers/phd/cued_particles.hpp"
 #include "glint/engine/trackers/phd/particle_steps.hpp"
 #include "glint/engine/trackers/phd/resident_particles.hpp"
 #include "glint/kernels/cell_weights/bound.hpp"
@@ -55,6 +56,14 @@ void TargetFilters::add(const Particles& from, std::span<const std::uint32_t> me
     const std::uint32_t source = members[ancestors_[i]];
     for (const MovedArray& array : moves) array.move(source, i);
   }
+}
+
+void TargetFilters::add(const Cue& cue, const StepTime& at, double speed_max) {
+  const std::size_t first = particles_.size();
+  particles_.resize(first + count_);
+  const RandomKey key = target_key(first / count_, at.frame, Purpose::cue);
+  draw_cued({bank_, appearance_, speed_max, key}, cue, at, particles_, first, count_);
+  std::fill_n(particles_.label.begin() + static_cast<std::ptrdiff_t>(first), count_, 0U);
 }
 
 void TargetFilters::add(const TargetFilters& other, std::size_t t) {

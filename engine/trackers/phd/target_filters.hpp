@@ -5,9 +5,11 @@
 #include <tuple>
 #include <vector>
 
+#include "glint/engine/cue.hpp"
 #include "glint/engine/frames/target_appearance.hpp"
 #include "glint/engine/trackers/phd/motion_bank.hpp"
 #include "glint/engine/trackers/phd/peaks.hpp"
+#include "glint/engine/tracks/step_clock.hpp"
 #include "glint/kernels/core/device.hpp"
 #include "glint/kernels/core/particles.hpp"
 #include "glint/kernels/core/random.hpp"
@@ -34,6 +36,8 @@ class TargetFilters {
   std::size_t size() const { return particles_.size() / count_; }  ///< targets
   /// Adds a target, its particles drawn from the `members` of `from` in proportion to their weight.
   void add(const Particles& from, std::span<const std::uint32_t> members, std::int64_t frame);
+  /// Adds a target whose particles are drawn about a cue; `speed_max` [px/frame].
+  void add(const Cue& cue, const StepTime& at, double speed_max);
   /// Adds a copy of target `t` of other filters with the same number of particles a target.
   void add(const TargetFilters& other, std::size_t t);
   /// Removes target `t`; the later ones move up.

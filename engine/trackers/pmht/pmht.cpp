@@ -59,11 +59,36 @@ void PmhtTracker<Config, Bank>::step(const Scan& scan, TrackLog& log) {
   associate(true, at);  // 2-6
   associate(false, at);
   end_duplicates();
+  take_cues(scan, at);
   for (const PmhtStart& start : known_) add(start, TrackPoint::kUnknown, true, at);
   known_.clear();
   start_tracks(at);  // 1
   report(at, log);
   std::erase_if(tracks_, [](const Track& track) { return track.life.over(); });
+}
+
+/// Velocities of tracks times this are px/s.
+template <class Config, class Bank>
+double PmhtTracker<Config, Bank>::rate(const StepTime& at) const {
+  return config_.clock == TimeUnit::frames ? at.velocity_scale : 1;
+}
+
+/// A tentative track beside the new one ends in the next scan.
+template <class Config, class Bank>
+void PmhtTracker<Config, Bank>::take_cues(const Scan& scan, const StepTime& at) {
+  const auto variance = [](double sd) { return std::isnan(sd) ? 0 : sd * sd; };
+  for (const Cue& cue : scan.cues) {
+    const bool followed = std::ranges::any_of(tracks_, [&](const Track& track) {
+      return track.life.confirmed() && track.near({cue.x, cue.y}, config_.separation);
+    });
+    if (followed) continue;
+    const KnownTarget target = known_target(cue, rate(at), config_.speed_max);
+    known_.push_back({{cue.x, cue.y},
+                      {target.state(1), target.state(3)},
+                      1,
+                      variance(target.position_sd),
+                      variance(target.velocity_sd)});
+  }
 }
 
 template <class Config, class Bank>
@@ -186,9 +211,8 @@ void PmhtTracker<Config, Bank>::start_tracks(const StepTime& at) {
 
 template <class Config, class Bank>
 void PmhtTracker<Config, Bank>::report(const StepTime& at, TrackLog& log) {
-  const double rate = config_.clock == TimeUnit::frames ? at.velocity_scale : 1;
   for (Track& track : tracks_) {
-    glint::report(track, track.bank.probability(), at, rate, log);
+    glint::report(track, track.bank.probability(), at, rate(at), log);
   }
 }
 

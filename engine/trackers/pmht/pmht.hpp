@@ -61,10 +61,12 @@ struct PmhtHomotheticConfig : PmhtConfig {
 struct PmhtStart {
   Eigen::Vector2d position, velocity;  ///< [px], [px/time]
   double step = 1;                     ///< [time]
+  /// Variances that are told instead [px^2], [px^2/time^2]; 0: those of two such points.
+  double position_variance = 0, velocity_variance = 0;
 
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.position, s.velocity, s.step);
+    return std::tie(s.position, s.velocity, s.step, s.position_variance, s.velocity_variance);
   }
 };
 
@@ -116,6 +118,8 @@ class PmhtTracker : public TrackerOf<PmhtTracker<Config, Bank>> {
   };
 
   void take_points(const Scan& scan);
+  void take_cues(const Scan& scan, const StepTime& at);
+  double rate(const StepTime& at) const;
   void predict();
   void associate(bool confirmed, const StepTime& at);
   void gate(bool confirmed);

@@ -71,13 +71,20 @@ std::vector<std::string> parts_of(const std::string& motion) {
 
 /// Of one axis: position, velocity and acceleration at the start, and their covariance. For R = 9,
 /// speed_max = 20 and a step of 1 it is the [[9,9,0],[9,18,0],[0,0,4]] of the paper's clips.
-Gaussian<3> axis_start(double position, double velocity, double step, const PmhtConfig& config) {
+Gaussian<3> axis_start(double position, double velocity, const PmhtStart& start,
+                       const PmhtConfig& config) {
   constexpr double kSteps = 10;  // in which a new target may gain its largest speed
-  const double r = config.measurement_variance, acceleration = config.speed_max / (kSteps * step);
+  const double r = config.measurement_variance, step = start.step;
+  const double acceleration = config.speed_max / (kSteps * step);
   Gaussian<3> axis;
   axis.mean << position, velocity, 0;
   axis.covariance << r, r / step, 0, r / step, 2 * r / (step * step), 0, 0, 0,
       acceleration * acceleration;
+  if (start.position_variance > 0) axis.covariance(0, 0) = start.position_variance;
+  if (start.velocity_variance > 0) axis.covariance(1, 1) = start.velocity_variance;
+  if (start.position_variance > 0 || start.velocity_variance > 0) {
+    axis.covariance(0, 1) = axis.covariance(1, 0) = 0;
+  }
   return axis;
 }
 
@@ -103,8 +110,8 @@ std::vector<std::string> pmht_mode_names(const PmhtConfig& config) {
 }
 
 Imm pmht_bank(const PmhtConfig& config, const PmhtStart& start) {
-  const Gaussian<3> x = axis_start(start.position.x(), start.velocity.x(), start.step, config);
-  const Gaussian<3> y = axis_start(start.position.y(), start.velocity.y(), start.step, config);
+  const Gaussian<3> x = axis_start(start.position.x(), start.velocity.x(), start, config);
+  const Gaussian<3> y = axis_start(start.position.y(), start.velocity.y(), start, config);
   Imm::Modes modes;
   for (const std::string& name : pmht_mode_names(config)) {
     const double scale = name.ends_with("-agile") ? config.noise_ratio : 1;

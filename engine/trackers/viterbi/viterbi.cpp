@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "glint/engine/tracks/tracker_state.hpp"
 #include "glint/kernels/dp_stage/dp_stage.hpp"
@@ -35,7 +36,7 @@ void Viterbi::step(const Scan& scan, TrackLog& log) {
   if (scan.whitened.width() == 0) return;
   appearance_.look_at(scan);
   const StepTime at = clock_.tick(scan);
-  score(scan.whitened, at.step);
+  score(scan.whitened, at.step, scan.cues);
   if (times_.size() == static_cast<std::size_t>(config_.window)) times_.erase(times_.begin());
   times_.push_back(at);
   if (!window_.full()) return;
@@ -49,7 +50,36 @@ void Viterbi::step(const Scan& scan, TrackLog& log) {
   forget(log);
 }
 
-void Viterbi::score(const Frame& z, double step) {
+namespace {
+
+/// Adds the logarithm of the probability of each pixel given the cue, over that of any pixel of the
+/// frame, where it is above 0.
+void add_prior(const Cue& cue, const Device& device, ImageView<float> map) {
+  constexpr double kSigma = 2;  // unless the cue says it [px]
+  const double variance = std::pow(std::max(cue.sigma_or(kSigma), 0.5), 2);  // cells are pixels
+  const double pixels = static_cast<double>(map.width) * map.height;
+  const double most = std::log(pixels / (2 * std::numbers::pi * variance));
+  if (!(most > 0)) return;
+  const double reach = std::sqrt(2 * variance * most);
+  const auto first = [](double from) { return std::max(0, static_cast<int>(std::ceil(from))); };
+  const auto last = [](double to, int size) {
+    return std::min(size - 1, static_cast<int>(std::floor(to)));
+  };
+  for (int y = first(cue.y - reach); y <= last(cue.y + reach, map.height); ++y) {
+    const std::span row(map.row(y), static_cast<std::size_t>(map.width));
+    device.fetch(row);
+    for (int x = first(cue.x - reach); x <= last(cue.x + reach, map.width); ++x) {
+      const double square = (x - cue.x) * (x - cue.x) + (y - cue.y) * (y - cue.y);
+      const double prior = most - square / (2 * variance);
+      if (prior > 0) row[static_cast<std::size_t>(x)] += static_cast<float>(prior);
+    }
+    device.send(row);
+  }
+}
+
+}  // namespace
+
+void Viterbi::score(const Frame& z, double step, std::span<const Cue> cues) {
   PixelLikelihood::Args args;
   args.frame = z.for_kernels();
   args.spread = appearance_.spread();
@@ -57,6 +87,7 @@ void Viterbi::score(const Frame& z, double step) {
   args.threshold = std::numeric_limits<float>::infinity();
   args.map = window_.next(z.width(), z.height());
   device_.run<PixelLikelihood>(args);
+  for (const Cue& cue : cues) add_prior(cue, device_, args.map);
   const auto pixels = [step](double per_frame) {
     return static_cast<int>(std::min<double>(std::ceil(per_frame * step), kMaxDpReach));
   };

@@ -57,7 +57,7 @@ class Viterbi : public TrackerOf<Viterbi> {
     }
   };
 
-  void score(const Frame& z, double step);
+  void score(const Frame& z, double step, std::span<const Cue> cues);
   void stitch(const WindowPath& path, TrackLog& log);
   double distance(const Track& track, const WindowPath& path) const;
   Track& owner(const WindowPath& path);
