@@ -127,7 +127,7 @@ ExperimentResult run_cue(const ExperimentOptions& options, Workers& workers) {
     add(name + ", 3 dB", "held", values_of(runs[2 * i], &CueRun::held), band(.9, {}));
     add(name + ", 3 dB", "share of frames", values_of(runs[2 * i], &CueRun::near));
     const std::vector<double> ends = values_of(runs[2 * i + 1], &CueRun::ended);
-    add(name + ", noise alone", "ends after [frames]", ends, band({}, 15));
+    add(name + ", noise alone", "ends after [frames]", ends, band({}, 6));
     add(name + ", noise alone", "longest [frames]", {*std::ranges::max_element(ends)});
   }
   return result;

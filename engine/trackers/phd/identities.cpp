@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "glint/engine/trackers/phd/bernoulli.hpp"
+#include "glint/engine/trackers/phd/cued_particles.hpp"
 #include "glint/engine/trackers/phd/peaks.hpp"
 
 namespace glint {

@@ -11,5 +11,9 @@ TEST(DimTarget, MmPhdFindsItAtThreeDecibelsAndNothingInNoise) {
   EXPECT_EQ(expect_in_bands(run_of("dim-target", 8), 1, 8), 7);
 }
 
+TEST(Cue, MmPhdHoldsATargetOfThreeDecibelsThatItIsTold) {
+  EXPECT_EQ(expect_in_bands(run_of("cue", 8), 1, 8), 2);
+}
+
 }  // namespace
 }  // namespace glint

@@ -55,8 +55,10 @@ class Follower {
   void follow(const std::vector<Pixel>& visible) {
     ++at_.frame, at_.time += 1;
     at_.step = 1 + std::exchange(skipped_, 0);
-    targets_.follow(image_of(ratio_, visible), at_, log_);
+    targets_.follow(image_of(ratio_, visible), at_, log_, std::exchange(cues_, {}));
   }
+  /// In the next frame.
+  void cue(double x, double y) { cues_.push_back({x, y, 0, 0, 0.01}); }
   /// Frames that are not looked at.
   void skip(int frames) { at_.frame += frames, at_.time += frames, skipped_ = frames; }
   std::span<const FollowedTarget> targets() const { return targets_.targets(); }
@@ -72,6 +74,7 @@ class Follower {
   TrackLog log_;
   StepTime at_;
   int skipped_ = 0;
+  std::vector<Cue> cues_;
 };
 
 std::vector<std::int64_t> frames_of(const std::vector<TrackPoint>& points, std::int64_t track) {
@@ -313,6 +316,45 @@ TEST(FollowedTargets, SurviveEachFrameThatASkippedOneStandsFor) {
   const double there = std::pow(0.99, 10) * 0.6;
   const double odds = there / (1 - there) * kImageRatio;
   EXPECT_NEAR(f.only().existence, odds / (1 + odds), 1e-5);
+}
+
+// Nine to one that it is there, and its own frame counts already: survival does not.
+TEST(FollowedTargets, OfACueAreConfirmedAtOnce) {
+  Follower f;
+  f.cue(10, 12);
+  f.follow({kHere});
+  ASSERT_EQ(f.targets().size(), 1u);
+  EXPECT_NEAR(f.only().existence, 9 * kImageRatio / (1 + 9 * kImageRatio), 1e-4);
+  EXPECT_NEAR(f.only().estimate.x, 10, 0.05);
+  EXPECT_EQ(f.log().at(1)[0].status, TrackStatus::confirmed);
+  EXPECT_TRUE(f.confirmed_now().empty());  // nobody has said that it was there before
+}
+
+TEST(FollowedTargets, OfACueOnNothingEndAsConfirmedOnesDo) {
+  Follower f;
+  f.cue(10, 12);
+  f.follow({});
+  EXPECT_NEAR(f.only().existence, 9 / kImageRatio / (1 + 9 / kImageRatio), 1e-4);
+  f.follow({}), f.follow({});
+  EXPECT_TRUE(f.targets().empty());
+  EXPECT_EQ(f.log().at(1)[0].status, TrackStatus::confirmed);  // somebody's word, till the end
+  EXPECT_EQ(f.log().at(2)[0].status, TrackStatus::confirmed);
+  EXPECT_EQ(f.log().at(3)[0].status, TrackStatus::halted);
+  EXPECT_EQ(frames_of(f.log().revised(), 1), (Frames{3}));  // its end
+}
+
+TEST(FollowedTargets, ACueUponATrackConfirmsItAndStartsNoOther) {
+  Follower f;
+  f.detect(kHere.x, kHere.y, 2, 0.6);
+  f.cue(kHere.x + 2, kHere.y + 5.9);  // of where it is expected
+  f.follow({{kHere.x + 2, kHere.y}});
+  ASSERT_EQ(f.targets().size(), 1u);
+  EXPECT_TRUE(f.only().confirmed);
+  EXPECT_GT(f.only().existence, 0.998);  // from .9, not from .6
+  EXPECT_EQ(f.log().revised()[0].status, TrackStatus::confirmed);
+  f.cue(kHere.x + 4, kHere.y + 6.1);
+  f.follow({{kHere.x + 4, kHere.y}});
+  EXPECT_EQ(f.targets().size(), 2u);
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <span>
 
 #include "engine/dim_targets.hpp"
 
@@ -173,6 +175,35 @@ TEST(Viterbi, RefusesACommonStretchLongerThanItsWindow) {
   ViterbiConfig config;
   config.window = 4, config.common_frames = 5;
   EXPECT_THROW(Viterbi(config, Device::serial(), 1), ConfigError);
+}
+
+/// What a threshold leaves of a target of 12 dB, with a cue on its place at frame 6 or without.
+TrackLog with_cue(double threshold, std::span<const Cue> cues) {
+  const Scene scene = one_target(12, 0, 8);
+  ViterbiConfig config = config_for(12);
+  config.threshold = threshold;
+  Viterbi tracker(config, Device::tbb(1), 1);
+  TrackLog log;
+  for (int k = 0; k < scene.frames; ++k) {
+    Scan scan = whitened_scan(scene, 1, k);
+    if (k == 6) scan.cues = cues;
+    tracker.step(scan, log);
+    if (k == 7) break;  // the first full window
+  }
+  return log;
+}
+
+// The best path's total lies between two thresholds; a cue of sigma 1 on a pixel of the 1600 raises
+// it by ln(1600 / 2 pi) = 5.54, one elsewhere by nothing.
+TEST(Viterbi, ACueIsAPriorOfItsFrame) {
+  const TruthPoint at = truth_at(one_target(12, 0, 8), 6)[0];
+  const Cue there{std::round(at.x), std::round(at.y), 0, 0, 1}, elsewhere{30, 30, 0, 0, 1};
+  double most = 0;
+  while (!with_cue(most, {}).online().empty()) most += 0.25;
+  EXPECT_GT(most, 30);  // the target's
+  EXPECT_FALSE(with_cue(most + 3.5, std::span(&there, 1)).online().empty());
+  EXPECT_TRUE(with_cue(most + 5.6, std::span(&there, 1)).online().empty());
+  EXPECT_TRUE(with_cue(most + 0.25, std::span(&elsewhere, 1)).online().empty());
 }
 
 }  // namespace
