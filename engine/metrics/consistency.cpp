@@ -43,6 +43,19 @@ const TruthPoint* nearest(std::span<const TruthPoint> truth, const TrackPoint& t
   return best;
 }
 
+void add_point(std::span<const TruthPoint> truth, const TrackPoint& track, double reach,
+               Consistency& to) {
+  const TruthPoint* target = nearest(truth, track, reach);
+  if (!std::isnan(track.existence)) {
+    const double error = track.existence - (target != nullptr ? 1 : 0);
+    to.existence_error.sum += error * error, ++to.existence_error.points;
+    if (target != nullptr) ++to.real;
+  }
+  if (target == nullptr || track.status != TrackStatus::confirmed) return;
+  add_nees<2>(*target, track, to.position_nees);
+  add_nees<4>(*target, track, to.state_nees);
+}
+
 }  // namespace
 
 double Consistency::brier_of_base_rate() const {
@@ -51,22 +64,15 @@ double Consistency::brier_of_base_rate() const {
 }
 
 Consistency consistency(std::span<const TruthPoint> truth, std::span<const TrackPoint> tracks,
-                        double reach) {
+                        double reach, std::optional<std::int64_t> frames) {
   Consistency result;
-  const std::int64_t frames = frame_count(tracks);
-  const auto truth_by_frame = by_frame(truth, frames);
-  for (const TrackPoint& track : tracks) {
-    if (track.status == TrackStatus::halted) continue;
-    const TruthPoint* target =
-        nearest(truth_by_frame[static_cast<std::size_t>(track.frame)], track, reach);
-    if (!std::isnan(track.existence)) {
-      const double error = track.existence - (target != nullptr ? 1 : 0);
-      result.existence_error.sum += error * error, ++result.existence_error.points;
-      if (target != nullptr) ++result.real;
+  const std::int64_t scored = frames.value_or(frame_count(tracks));
+  const auto truth_by_frame = by_frame(truth, scored);
+  const auto tracks_by_frame = by_frame(tracks, scored);
+  for (std::size_t f = 0; f < tracks_by_frame.size(); ++f) {
+    for (const TrackPoint& track : tracks_by_frame[f]) {
+      if (track.status != TrackStatus::halted) add_point(truth_by_frame[f], track, reach, result);
     }
-    if (target == nullptr || track.status != TrackStatus::confirmed) continue;
-    add_nees<2>(*target, track, result.position_nees);
-    add_nees<4>(*target, track, result.state_nees);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "glint/engine/scenario/truth.hpp"
@@ -33,8 +34,10 @@ struct Consistency {
 };
 
 /// Each point's truth is the nearest one, at most `reach` [px] away. Points without existence, and
-/// without (or with a singular) covariance, are left out of what needs it.
+/// without (or with a singular) covariance, are left out of what needs it; so are truths without
+/// velocity. Scored are frames 0 to `frames` - 1; without it, all. Throws std::invalid_argument as
+/// evaluate() does, for a negative frame and for too many.
 Consistency consistency(std::span<const TruthPoint> truth, std::span<const TrackPoint> tracks,
-                        double reach = 3);
+                        double reach = 3, std::optional<std::int64_t> frames = {});
 
 }  // namespace glint
