@@ -35,6 +35,8 @@ void describe(FieldList& list, RunConfig& c) {
        "streams without an end");
   list("points", c.points, {},
        "file of points (.csv, .jsonl) that go with the frames, instead of those found in them");
+  list("start_at", c.start_at, {},
+       "file of targets (.csv: frame or time, x, y, and vx, vy, sigma) that tracks start on");
 }
 
 namespace {
@@ -51,6 +53,7 @@ void refuse_what_reads_files(const RunConfig& run) {
            {!run.format.empty(), "format", "a frame says the type of its pixels itself"},
            {!run.mask.empty(), "mask", "set pixels to be ignored to NaN in float frames"},
            {!run.points.empty(), "points", "push the points"},
+           {!run.start_at.empty(), "start_at", "call start() before the frame is pushed"},
            {run.add_noise != 0, "add_noise", "add noise before pushing"}}) {
     if (refusal.given) {
       throw ConfigError(std::string("run.") + refusal.key +

@@ -24,6 +24,7 @@ struct RunConfig {
   std::string format, size;  ///< of raw frames; empty = inputs have headers
   int keep = 0;              ///< [frames]; 0 = all
   std::string points;        ///< a file of points that go with the frames
+  std::string start_at;      ///< a file of targets that tracks start on
 };
 void describe(FieldList& list, RunConfig& config);
 

@@ -150,8 +150,8 @@ int glint_has(const char* what) {
              return GLINT_OK;
            }) == GLINT_OK;
   }
-  constexpr std::array<std::string_view, 5> kOthers{"pixel.gray8", "pixel.gray16", "pixel.float32",
-                                                    "points", "measurements"};
+  constexpr std::array<std::string_view, 6> kOthers{"pixel.gray8", "pixel.gray16", "pixel.float32",
+                                                    "points",      "measurements", "start"};
   return std::ranges::find(kOthers, asked) != kOthers.end();
 }
 
@@ -223,6 +223,19 @@ glint_status glint_push_measurements(glint_engine* engine, const glint_measureme
       all.push_back({m.x, m.y, m.amplitude});
     }
     return push(engine, std::move(all), time);
+  });
+}
+
+glint_status glint_start(glint_engine* engine, const glint_cue* cue) {
+  return guarded([&] {
+    require(engine != nullptr, "engine is NULL");
+    const glint_cue all = taken(cue, GLINT_CUE_INIT, "cue is NULL");
+    try {
+      engine->engine.start(all.x, all.y, all.vx, all.vy, all.sigma);
+    } catch (const std::invalid_argument& e) {
+      throw BadArgument(e.what());
+    }
+    return GLINT_OK;
   });
 }
 

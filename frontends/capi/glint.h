@@ -20,6 +20,7 @@
 #ifndef GLINT_H
 #define GLINT_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -52,7 +53,7 @@ GLINT_API const char *glint_version(void);
  * the thread's next call. */
 GLINT_API const char *glint_last_error(void);
 /* Whether this build has "tracker.<name>", "device.<kind>", "pixel.gray8", "pixel.gray16",
- * "pixel.float32", "points" or "measurements": 1 or 0. */
+ * "pixel.float32", "points", "measurements" or "start": 1 or 0. */
 GLINT_API int glint_has(const char *what);
 /* Every setting with its meaning, range and default, as TOML; 0 at the end. `size` holds the
  * bytes of `text` and gets those needed: GLINT_TOO_SMALL if there are fewer. */
@@ -123,6 +124,20 @@ typedef struct glint_measurement {
 GLINT_API glint_status glint_push_measurements(glint_engine *engine,
                                                const glint_measurement *measurements,
                                                size_t measurement_size, size_t count, double time);
+
+typedef struct glint_cue {
+  size_t struct_size; /* sizeof(glint_cue) */
+  double x, y;        /* [px] */
+  double vx, vy;      /* [px/s]; NaN, both: not known */
+  double sigma;       /* standard deviation of x and of y [px]; NaN: what the tracker takes */
+} glint_cue;
+#define GLINT_CUE_INIT {sizeof(glint_cue), 0, 0, NAN, NAN, NAN}
+
+/* Somebody's word for a target in the frame that is pushed next: every tracker starts a confirmed
+ * track there. A target that has a track gets no second one, and outside the frame none starts.
+ * Before the first frame a velocity does not count. GLINT_BAD_ARGUMENT for numbers that cannot be,
+ * GLINT_BAD_STATE after glint_finish(). */
+GLINT_API glint_status glint_start(glint_engine *engine, const glint_cue *cue);
 
 typedef enum glint_track_status {
   GLINT_TENTATIVE = 0,

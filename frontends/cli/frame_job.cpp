@@ -12,6 +12,7 @@
 #include "glint/engine/settings.hpp"
 #include "glint/engine/trackers/registry.hpp"
 #include "glint/frontends/cli/config_file.hpp"
+#include "glint/frontends/files/cued_source.hpp"
 #include "glint/frontends/files/noisy_source.hpp"
 #include "glint/frontends/files/open_source.hpp"
 #include "glint/frontends/files/points_source.hpp"
@@ -198,7 +199,9 @@ FrameJob settle(const FrameOptions& options, const std::vector<std::string>& mor
 std::unique_ptr<Source> open_frames(const FrameJob& job) {
   auto frames = open_input(job, warn);
   const std::string& points = job.run().points;
-  return points.empty() ? std::move(frames) : with_points(std::move(frames), points, warn);
+  if (!points.empty()) frames = with_points(std::move(frames), points, warn);
+  const std::string& cues = job.run().start_at;
+  return cues.empty() ? std::move(frames) : with_cues(std::move(frames), cues, warn);
 }
 
 Scheduler make_scheduler(const FrameJob& job) {

@@ -148,6 +148,11 @@ void add_track(Command& program) {
       [options](const std::string& v) { options->frames.run.emplace_back("points", v); },
       "points (.csv, .jsonl) that go with the frames, by frame or time, for trackers of points, "
       "instead of those found in the frames");
+  command.option(
+      "--start-at",
+      [options](const std::string& v) { options->frames.run.emplace_back("start_at", v); },
+      "targets that somebody has seen (.csv: frame or time, x, y and, if known, vx, vy [px/s], "
+      "sigma [px]; of tracks the first row each): every tracker starts a track on each");
   command
       .option("--out", options->outputs.tracks,
               "tracks as .csv, .jsonl or .mot.txt (confirmed only, with the run's settings "
@@ -172,6 +177,7 @@ void add_track(Command& program) {
       "  glint track clip.mp4 --tracker mm-phd --profile L --out tracks.csv\n"
       "  glint track points.csv --tracker imm-pda-ai --out tracks.csv\n"
       "  glint track clip.mp4 --points radar.csv --tracker mm-phd --tracker imm-jpda --out t.csv\n"
+      "  glint track clip.mp4 --tracker mm-phd --start-at targets.csv --out tracks.csv\n"
       "  camera | glint track - --format gray16le --size 640x512 --fps 100 --tracker mm-phd --out "
       "-\n"
       "  glint track clip.mp4 --config tracks.csv      repeats the run that wrote it\n"

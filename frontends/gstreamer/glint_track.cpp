@@ -237,8 +237,24 @@ bool begin_anew(GstBaseTransform* transform) {
   return done;
 }
 
+/// An application's word for a target in the next picture. One that is none stops no pictures.
+void start_track(GstBaseTransform* transform, const GstStructure& target) {
+  try {
+    state_of(transform).stream->start(target);
+  } catch (const std::exception& e) {
+    GST_ELEMENT_WARNING(transform, STREAM, FAILED, ("glint-start: %s", e.what()), (nullptr));
+  }
+}
+
 gboolean sink_event(GstBaseTransform* transform, GstEvent* event) {
   State& state = state_of(transform);
+  // One that is not in line with the pictures would come on another thread.
+  if (state.stream && GST_EVENT_IS_SERIALIZED(event) &&
+      gst_event_has_name(event, "glint-start") != FALSE) {
+    start_track(transform, *gst_event_get_structure(event));
+    gst_event_unref(event);
+    return TRUE;
+  }
   if (state.stream) {
     if (GST_EVENT_TYPE(event) == GST_EVENT_EOS) finish(transform);
     if (GST_EVENT_TYPE(event) == GST_EVENT_FLUSH_STOP) begin_anew(transform);

@@ -95,6 +95,15 @@ EngineResult Stream::track(GstVideoFrame& picture, GstClockTime timestamp) {
   return std::move(*result);
 }
 
+void Stream::start(const GstStructure& target) {
+  const auto number = [&](const char* name) {
+    double value = Cue::kUnknown;
+    gst_structure_get_double(&target, name, &value);
+    return value;
+  };
+  engine_->start(number("x"), number("y"), number("vx"), number("vy"), number("sigma"));
+}
+
 const Scheduler& Stream::finish() {
   engine_->finish();
   return engine_->scheduler();

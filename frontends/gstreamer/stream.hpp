@@ -25,6 +25,9 @@ class Stream {
   /// copied but where they are not aligned. Throws UsageError for a picture whose time is not
   /// known, and what ended the engine.
   EngineResult track(GstVideoFrame& picture, GstClockTime timestamp);
+  /// Starts a track in the next picture where a structure "glint-start" says: x, y and, if known,
+  /// vx, vy and sigma, all double. Throws std::invalid_argument for numbers that cannot be.
+  void start(const GstStructure& target);
   /// Lets the trackers report what they hold back. Throws what ended the engine.
   const Scheduler& finish();
 

@@ -78,6 +78,14 @@ bool PushEngine::push(const py::object& frame, double time, bool copy) {
   return kept;
 }
 
+void PushEngine::start(double x, double y, std::optional<double> vx, std::optional<double> vy,
+                       std::optional<double> sigma) {
+  in_engine([&] {
+    engine_->start(x, y, vx.value_or(Cue::kUnknown), vy.value_or(Cue::kUnknown),
+                   sigma.value_or(Cue::kUnknown));
+  });
+}
+
 bool PushEngine::push_points(const py::object& points, double time) {
   return push(points_of(points, time));
 }

@@ -32,6 +32,8 @@ class PushEngine {
   PushEngine& operator=(const PushEngine&) = delete;
 
   bool push(const py::object& frame, double time, bool copy);
+  void start(double x, double y, std::optional<double> vx, std::optional<double> vy,
+             std::optional<double> sigma);
   bool push_points(const py::object& points, double time);
   std::optional<Result> poll(double timeout);  ///< [s]
   /// Of the frames pushed by now, waited for; nothing once all of theirs were given.

@@ -86,6 +86,16 @@ void add_engine(py::module_& m) {
            "float64: x and y [px], or in any unit of length that the settings share. All pushes\n"
            "of an engine are of one kind. Returns and raises as push() does.")
       .def(
+          "start", &PushEngine::start, "x"_a, "y"_a, "vx"_a = py::none(), "vy"_a = py::none(),
+          "sigma"_a = py::none(),
+          "Somebody's word for a target at x, y [px] in the frame that is pushed next.\n\n"
+          "Every tracker starts a confirmed track there. `vx`, `vy` [px/s] are its velocity if it\n"
+          "is known (before the first frame it does not count), `sigma` the standard deviation of\n"
+          "x and of y [px]; without it the tracker takes its own. A target that has a track gets\n"
+          "no second one; outside the frame none starts. Raises ValueError for numbers that "
+          "cannot\n"
+          "be, RuntimeError after finish(), and what ended the engine.")
+      .def(
           "poll", &PushEngine::poll, "timeout"_a = 0.0,
           "The Result of the next frame that is done, in order, waited for at most `timeout` [s],\n"
           "or None if there is none by then. Raises what ended the engine once the results before\n"

@@ -113,6 +113,32 @@ TEST(CApi, PixelsAreReadWhereTheyAreAndWhateverTheirRows) {
   EXPECT_EQ(all(odd.get()), expected);
 }
 
+TEST(CApi, ACueStartsAConfirmedTrackInTheNextFrame) {
+  EXPECT_EQ(glint_has("start"), 1);
+  const Handle engine = create("mm-phd");
+  glint_cue cue = GLINT_CUE_INIT;
+  cue.x = 20, cue.y = 12, cue.sigma = 1;
+  ASSERT_EQ(glint_start(engine.get(), &cue), GLINT_OK) << glint_last_error();
+  const auto pixels = picture(0);
+  const glint_frame frame = frame_of(pixels, 0);
+  ASSERT_EQ(glint_push(engine.get(), &frame), GLINT_OK);
+  std::array<glint_track, 50> tracks;
+  glint_result result = GLINT_RESULT_INIT;
+  ASSERT_EQ(glint_next(engine.get(), 60, &result, tracks.data(), tracks.size()), GLINT_OK);
+  ASSERT_EQ(result.tracks, 1u);
+  EXPECT_EQ(tracks[0].status, GLINT_CONFIRMED);
+  EXPECT_NEAR(tracks[0].x, 20, 3);
+  EXPECT_NEAR(tracks[0].y, 12, 3);
+
+  EXPECT_EQ(glint_start(engine.get(), nullptr), GLINT_BAD_ARGUMENT);
+  cue.vx = 1;  // without vy
+  EXPECT_EQ(glint_start(engine.get(), &cue), GLINT_BAD_ARGUMENT);
+  EXPECT_TRUE(said("both"));
+  cue.vx = NAN;
+  ASSERT_EQ(glint_finish(engine.get()), GLINT_OK);
+  EXPECT_EQ(glint_start(engine.get(), &cue), GLINT_BAD_STATE);
+}
+
 TEST(CApi, WhatIsNotTakenStaysTheCallers) {
   const Handle engine = create("smc-phd");
   ASSERT_EQ(glint_finish(engine.get()), GLINT_OK);

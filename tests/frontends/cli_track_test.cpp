@@ -54,6 +54,30 @@ TEST(CliTrack, SimulatedFramesAreTrackedAndARunRepeatsFromItsOwnFile) {
   EXPECT_NE(content_of(first), content_of(third));
 }
 
+// The truth of a scene is such a file, too.
+TEST(CliTrack, TracksStartOnTheTargetsOfAFile) {
+  const Folder folder;
+  const std::string clip = folder / "clip", tracks = folder / "tracks.csv";
+  ASSERT_EQ(glint(folder, "simulate crossing --seed 3 --format npy --out " + clip).code, 0);
+  const std::vector<TruthPoint> truth = read_truth(clip + "/truth.csv");
+  const Result run = glint(folder, "track " + clip + " --tracker mm-phd --start-at " + clip +
+                                       "/truth.csv --out " + tracks);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(has(content_of(tracks), "# start_at = \"" + clip + "/truth.csv\"\n"));
+  const std::vector<TrackPoint> points = read_tracks(tracks);
+  const auto confirmed_at = [&](std::int64_t frame) {
+    return std::ranges::count_if(points, [&](const TrackPoint& p) {
+      return p.frame == frame && p.status == TrackStatus::confirmed;
+    });
+  };
+  EXPECT_EQ(confirmed_at(truth[0].frame),
+            std::ranges::count(truth, truth[0].frame, &TruthPoint::frame));
+  const Result bad = glint(folder, "track " + clip + " --tracker mm-phd --start-at " +
+                                       folder.write("bad.csv", "frame,x,y\n0,1,nowhere\n"));
+  EXPECT_NE(bad.code, 0);
+  EXPECT_TRUE(has(bad.err, "bad.csv:2: y must be")) << bad.err;
+}
+
 TEST(CliTrack, EveryFormatRepeatsItsRun) {
   const Folder folder;
   const std::string first = folder / "1.csv";

@@ -261,6 +261,28 @@ TEST_F(GlintTrack, WithoutTimeStampsTheFrameRateTellsTheTime) {
   EXPECT_TRUE(has(none.run(), "put videorate in front of glinttrack"));
 }
 
+TEST_F(GlintTrack, AnEventStartsATrackInThePictureBehindIt) {
+  Pipeline pipeline(source() + "glinttrack name=t tracker=mm-phd ! fakesink");
+  int picture = 0;
+  pipeline.watch("t", "sink", [&](GstBuffer*) {
+    const auto cue = [](const char* field, double value) {
+      return gst_event_new_custom(
+          GST_EVENT_CUSTOM_DOWNSTREAM,
+          gst_structure_new("glint-start", "x", G_TYPE_DOUBLE, 20.0, "y", G_TYPE_DOUBLE, 12.0,
+                            field, G_TYPE_DOUBLE, value, nullptr));
+    };
+    if (picture == 1) pipeline.send("t", cue("sigma", 1));
+    if (picture == 2) pipeline.send("t", cue("sigma", 0));  // a warning, no error
+    ++picture;
+  });
+  ASSERT_EQ(pipeline.run(), "");
+  ASSERT_EQ(pipeline.posted.size(), static_cast<std::size_t>(kFrames));
+  ASSERT_EQ(pipeline.posted[1].tracks.size(), 1u);
+  EXPECT_EQ(pipeline.posted[1].tracks[0].status, TrackStatus::confirmed);
+  EXPECT_NEAR(pipeline.posted[1].tracks[0].x, 20, 3);
+  EXPECT_TRUE(pipeline.posted[0].tracks.empty());
+}
+
 TEST_F(GlintTrack, AFlushBeginsAnew) {
   Pipeline pipeline(source() + "glinttrack tracker=mm-phd ! fakesink");
   pipeline.preroll();

@@ -94,6 +94,15 @@ class Pipeline {
     gst_object_unref(found);
   }
 
+  /// To the sink pad of the element of that name.
+  void send(const char* element, GstEvent* event) {
+    GstElement* found = gst_bin_get_by_name(GST_BIN(pipeline_), element);
+    GstPad* at = gst_element_get_static_pad(found, "sink");
+    EXPECT_TRUE(gst_pad_send_event(at, event));
+    gst_object_unref(at);
+    gst_object_unref(found);
+  }
+
   /// To the first frame, where it waits.
   void preroll() {
     gst_element_set_state(pipeline_, GST_STATE_PAUSED);

@@ -30,6 +30,25 @@ def test_poll_gives_the_frames_in_order_with_their_tracks():
     assert (engine.pushed, engine.dropped) == (FRAMES, 0)
 
 
+def test_start_begins_a_confirmed_track_in_the_next_frame():
+    engine = glint.Engine("mm-phd")
+    engine.start(20, 12, sigma=1)
+    engine.push(picture(0), 0)
+    (track,) = engine.poll(timeout=60).tracks
+    assert track["status"] == glint.Status.CONFIRMED
+    assert abs(track["x"] - 20) < 3 and abs(track["y"] - 12) < 3
+    engine.start(20, 12, vx=1, vy=-1)  # upon a track: no second
+    engine.push(picture(1), 1)
+    assert len(engine.poll(timeout=60).tracks) == 1
+    with pytest.raises(ValueError, match="both"):
+        engine.start(1, 2, vx=3)
+    with pytest.raises(ValueError, match="sigma"):
+        engine.start(1, 2, sigma=0)
+    engine.finish()
+    with pytest.raises(RuntimeError):
+        engine.start(1, 2)
+
+
 def test_with_and_iteration_lose_no_frame():
     seen = []
     with glint.Engine("smc-phd") as engine:
