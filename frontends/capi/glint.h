@@ -14,8 +14,9 @@
  *     glint_destroy(engine);
  *
  * Frames are tracked on the engine's own threads. Every function but glint_destroy() may be called
- * from any thread. Structs that are passed in begin with their size, so that a program built with
- * an older header goes on working. Nothing is thrown.
+ * from any thread. Structs that are passed in begin with their size, and arrays come with that of
+ * an element, so that a program built with an older header goes on working: it gets the fields that
+ * it knows. Nothing is thrown.
  */
 #ifndef GLINT_H
 #define GLINT_H
@@ -155,6 +156,8 @@ typedef struct glint_track {
   double vx, vy;    /* [px/s]; NaN where not known, as all that follows */
   double intensity, existence;
   double var_x, cov_xy, var_y; /* [px^2] */
+  double cov_x_vx, cov_x_vy, cov_y_vx, cov_y_vy; /* [px^2/s] */
+  double var_vx, cov_vx_vy, var_vy;              /* [px^2/s^2] */
 } glint_track;
 
 typedef struct glint_result {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "glint/engine/metrics/consistency.hpp"
 #include "glint/engine/metrics/evaluation.hpp"
 #include "glint/frontends/cli/commands.hpp"
 #include "glint/frontends/files/tables.hpp"
@@ -23,8 +24,13 @@ struct Request {
   bool json = false;
 };
 
+struct Scores {
+  Evaluation evaluation;
+  Consistency consistency;
+};
+
 struct Report {
-  std::optional<Evaluation> scores;
+  std::optional<Scores> scores;
   std::optional<Baseline> baseline;
 };
 
@@ -43,10 +49,17 @@ Json per_truth(const Evaluation& e, double TruthScore::*value) {
   return list;
 }
 
+/// Null for a mean over no points.
+Json nees(const PointSum& of) {
+  return of.points == 0 ? Json() : Json{{"mean", of.mean()}, {"points", of.points}};
+}
+
 /// A mean over no frames is undefined.
 Json mean(const Evaluation& e, double value) { return e.ospa.empty() ? Json() : Json(value); }
 
-Json json_of(const Evaluation& e) {
+Json json_of(const Scores& scores) {
+  const Evaluation& e = scores.evaluation;
+  const Consistency& c = scores.consistency;
   return {{"ospa",
            {{"mean", mean(e, e.mean_ospa.distance)},
             {"localisation", mean(e, e.mean_ospa.localisation)},
@@ -69,7 +82,11 @@ Json json_of(const Evaluation& e) {
           {"halt_delay", per_truth(e, &TruthScore::halt_delay)},
           {"points",
            {{"detected", number(e.detected_points)},
-            {"false_per_frame", number(e.false_points_per_frame)}}}};
+            {"false_per_frame", number(e.false_points_per_frame)}}},
+          {"position_nees", nees(c.position_nees)},
+          {"state_nees", nees(c.state_nees)},
+          {"brier", number(c.brier())},
+          {"brier_of_base_rate", number(c.brier_of_base_rate())}};
 }
 
 void print_json(const Report& report) {
@@ -108,15 +125,32 @@ void print_scores(const Evaluation& e) {
   fmt::print("false points per frame     {}\n", text(e.false_points_per_frame));
 }
 
+void print_nees(const char* of, const PointSum& nees, int right) {
+  if (nees.points == 0) return;
+  fmt::print("NEES of {:<19}{} over {} points, {} if the covariances are right\n", of,
+             text(nees.mean()), nees.points, right);
+}
+
+/// What the tracks do not state, or no truth can be set against, is left out.
+void print_consistency(const Consistency& c) {
+  print_nees("position", c.position_nees, 2);
+  print_nees("state", c.state_nees, 4);
+  if (c.existence_error.points == 0) return;
+  fmt::print("Brier's score of existence {} over {} points, {} for their base rate\n",
+             text(c.brier()), c.existence_error.points, text(c.brier_of_base_rate()));
+}
+
 void print_table(const Report& report) {
-  if (report.scores) print_scores(*report.scores);
+  if (report.scores) print_scores(report.scores->evaluation);
   if (report.baseline) {
     fmt::print(
         "single-frame detector      {} detected at {} false points per frame, threshold {}\n",
         text(report.baseline->detected_points), text(report.baseline->false_points_per_frame),
         text(report.baseline->threshold));
   }
-  if (report.scores) print_truths(*report.scores);
+  if (!report.scores) return;
+  print_consistency(report.scores->consistency);
+  print_truths(report.scores->evaluation);
 }
 
 /// Throws UsageError unless there is something to score.
@@ -132,17 +166,23 @@ void check(const Request& request) {
   }
 }
 
+Scores scores_of(const std::vector<TruthPoint>& truth, const std::vector<TrackPoint>& tracks,
+                 const EvaluationOptions& options) {
+  return {evaluate(truth, tracks, options),
+          consistency(truth, tracks, options.cutoff, options.frames)};
+}
+
 void run(Request request) {
   check(request);
   const std::vector<TruthPoint> truth = read_truth(request.truth);
   Report report;
   if (!request.tracks.empty()) {
-    report.scores = evaluate(truth, read_tracks(request.tracks), request.options);
-    request.options.frames = static_cast<std::int64_t>(report.scores->ospa.size());
+    report.scores = scores_of(truth, read_tracks(request.tracks), request.options);
+    request.options.frames = static_cast<std::int64_t>(report.scores->evaluation.ospa.size());
   }
   if (!request.baseline.empty()) {
-    const double allowed =
-        request.false_points ? *request.false_points : report.scores->false_points_per_frame;
+    const double allowed = request.false_points ? *request.false_points
+                                                : report.scores->evaluation.false_points_per_frame;
     report.baseline =
         detector_baseline(truth, read_points(request.baseline), allowed, request.options);
   }
@@ -183,6 +223,13 @@ void add_evaluate(Command& program) {
   command.footer(
       "Truth needs the columns frame, track_id, x, y (or frame0, linked_id, cx, cy), tracks the\n"
       "first four, points frame, x, y, amplitude. Delays are in frames.\n"
+      "NEES is the squared error in units of the stated covariance, e' P^-1 e, of confirmed\n"
+      "points with a truth within the cut-off: of the position if the tracks have var_x, cov_xy,\n"
+      "var_y, and of the state (position and velocity) if they have all that glint track\n"
+      "--covariance writes and the truth has vx, vy. Above 2 and 4 the covariances are too\n"
+      "small, below too large. Brier's score is the mean squared error of existence against 1\n"
+      "with a truth within the cut-off, else 0, of tentative points too; beside it that of\n"
+      "stating of every point how many of them have a truth.\n"
       "Example:\n  glint evaluate --truth truth.csv --tracks tracks.csv --cutoff 8\n"
       "  glint evaluate --truth truth.csv --baseline points.csv --false-points 1");
   command.callback([request] { run(*request); });

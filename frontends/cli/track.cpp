@@ -167,8 +167,12 @@ void add_track(Command& program) {
       .one_of({"mpeg4", "h264"})
       .with_default();
   command.option("--picture", options->outputs.picture, "one such frame beside the raw one, .png");
-  command.flag("--revised", options->outputs.revised,
+  command.flag("--revised", options->outputs.file.revised,
                "write tracks as revised later, not as reported at the time");
+  command.flag("--covariance", options->outputs.file.covariance,
+               "in .csv the velocity's covariance too, behind that of the position (var_x, cov_xy, "
+               "var_y [px^2]): cov_x_vx, cov_x_vy, cov_y_vx, cov_y_vy [px^2/s], var_vx, cov_vx_vy, "
+               "var_vy [px^2/s^2]; .jsonl always has it");
   command.footer(
       "Examples:\n"
       "  glint track clip.mp4 --tracker smc-phd --out tracks.csv --overlay overlay.mp4\n"

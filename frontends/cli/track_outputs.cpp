@@ -34,7 +34,7 @@ TrackOutputs::TrackOutputs(const OutputOptions& options, const FrameJob& job, do
     for (std::size_t i = 0; i < job.trackers.size(); ++i) {
       const std::string& tracker = job.trackers[i];
       const std::string file = job.trackers.size() > 1 ? path_for(path, tracker) : path;
-      tracks_.push_back({i, TrackFile(file, {tracker, bare_toml(job.sections)}, options.revised)});
+      tracks_.push_back({i, TrackFile(file, {tracker, bare_toml(job.sections)}, options.file)});
     }
   }
   if (const std::string& path = options.overlay; !path.empty()) {

@@ -15,7 +15,7 @@ struct OutputOptions {
   std::vector<std::string> tracks;      ///< files
   std::string overlay, picture;         ///< files; empty = none
   std::string overlay_codec = "mpeg4";  ///< or "h264"
-  bool revised = false;
+  TrackFileOptions file;
 };
 
 /// All that a run of trackers writes.

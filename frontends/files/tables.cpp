@@ -29,8 +29,10 @@ TrackStatus status_of(const CsvRow& row, std::size_t column) {
 
 std::vector<TrackPoint> read_tracks(const std::string& path) {
   static constexpr std::array<std::string_view, 4> kRequired{"frame", "track_id", "x", "y"};
-  static constexpr std::array<std::string_view, 9> kOptional{
-      "status", "time", "vx", "vy", "intensity", "existence", "var_x", "cov_xy", "var_y"};
+  static constexpr std::array<std::string_view, 16> kOptional{
+      "status",   "time",   "vx",        "vy",       "intensity", "existence",
+      "var_x",    "cov_xy", "var_y",     "cov_x_vx", "cov_x_vy",  "cov_y_vx",
+      "cov_y_vy", "var_vx", "cov_vx_vy", "var_vy"};
   std::vector<TrackPoint> points;
   read_csv(path, kRequired, kOptional, [&](const CsvRow& row) {
     TrackPoint p;
@@ -41,6 +43,9 @@ std::vector<TrackPoint> read_tracks(const std::string& path) {
     p.vx = row.number(6), p.vy = row.number(7);
     p.intensity = row.number(8), p.existence = row.number(9);
     p.var_x = row.number(10), p.cov_xy = row.number(11), p.var_y = row.number(12);
+    p.cov_x_vx = row.number(13), p.cov_x_vy = row.number(14);
+    p.cov_y_vx = row.number(15), p.cov_y_vy = row.number(16);
+    p.var_vx = row.number(17), p.cov_vx_vy = row.number(18), p.var_vy = row.number(19);
     points.push_back(p);
   });
   return points;

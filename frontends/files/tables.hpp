@@ -14,8 +14,8 @@
 namespace glint {
 
 /// Tables by column name; see read_csv for what they throw. tracks.csv needs frame, track_id, x, y,
-/// and takes status (confirmed if there is none), time, vx, vy, intensity, existence, var_x, cov_xy
-/// and var_y. Model probabilities are passed over.
+/// and takes status (confirmed if there is none), time, vx, vy, intensity, existence, var_x,
+/// cov_xy, var_y and those of kVelocityCovarianceNames. Model probabilities are passed over.
 std::vector<TrackPoint> read_tracks(const std::string& path);
 /// Needs frame, track_id, x, y; takes vx, vy, intensity. Tables of labelled boxes do as they are:
 /// frame0, linked_id, cx, cy are other names of the first four.

@@ -16,11 +16,11 @@ constexpr std::size_t kLeastPadding = 3;
 
 }  // namespace
 
-TrackFile::TrackFile(std::string path, RunRecord run, bool revised)
+TrackFile::TrackFile(std::string path, RunRecord run, const TrackFileOptions& options)
     : path_(std::move(path)),
       run_(std::move(run)),
-      revised_(revised),
-      format_(track_format(path_)),
+      revised_(options.revised),
+      format_(track_format(path_, options.covariance)),
       file_(open_output(path_)),
       seekable_(path_ != kStandardOutput && fs::is_regular_file(path_)) {
   if (format_->bare()) write_sidecar(nullptr);

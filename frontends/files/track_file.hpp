@@ -18,6 +18,11 @@ struct RunRecord {
   std::string config;   ///< whole configuration as TOML, seed included
 };
 
+struct TrackFileOptions {
+  bool revised = false;     ///< the revised record in place of what was reported at the time
+  bool covariance = false;  ///< in CSV the velocity's too: kVelocityCovarianceNames after var_y
+};
+
 /// How tracks are written; each call returns whole lines, but for header().
 class TrackFormat {
  public:
@@ -37,17 +42,17 @@ class TrackFormat {
 };
 
 /// By the end of the name: .csv, .jsonl or .mot.txt (.txt); JSON Lines for standard output, "-".
-/// Throws UsageError for others.
-std::unique_ptr<TrackFormat> track_format(const std::string& path);
+/// `covariance` is that of TrackFileOptions. Throws UsageError for others.
+std::unique_ptr<TrackFormat> track_format(const std::string& path, bool covariance);
 
 /// Tracks on their way into a file: every frame is flushed as it comes, so that a run that breaks
 /// off loses nothing. Room is left in the header for what is estimated on the way, which is known
 /// at the end; in a pipe, or if it does not fit, that comes last.
 class TrackFile {
  public:
-  /// Creates the file. With `revised`, close() replaces what was written on the way by the revised
-  /// record; a pipe gets only that. Throws UsageError if the file cannot be written.
-  TrackFile(std::string path, RunRecord run, bool revised);
+  /// Creates the file. With `options.revised`, close() replaces what was written on the way by the
+  /// revised record; a pipe gets only that. Throws UsageError if the file cannot be written.
+  TrackFile(std::string path, RunRecord run, const TrackFileOptions& options = {});
   /// `modes` must be the same in every call. Throws std::runtime_error if the disk is full.
   void write(std::span<const TrackPoint> points, const std::vector<std::string>& modes);
   /// No more is reported of the frames before `frame`: they need not be remembered.

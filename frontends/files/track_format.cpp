@@ -46,6 +46,7 @@ std::string estimate_lines(const char* mark, const Estimates* estimated) {
 
 class CsvFormat : public TrackFormat {
  public:
+  explicit CsvFormat(bool covariance) : covariance_(covariance) {}
   std::string header(const RunRecord& run, const Estimates* estimated) const override {
     const std::string title =
         "tracks of " + run.tracker + "; to repeat the run: glint track INPUT --config THIS_FILE";
@@ -64,6 +65,9 @@ class CsvFormat : public TrackFormat {
   std::string columns(const std::vector<std::string>& modes) override {
     std::string text = "frame,time,track_id,status";
     for (const auto column : kValueNames) text.append(",").append(column);
+    if (covariance_) {
+      for (const auto column : kVelocityCovarianceNames) text.append(",").append(column);
+    }
     for (const auto& mode : modes) text += ",p_" + mode;
     return text + '\n';
   }
@@ -74,12 +78,18 @@ class CsvFormat : public TrackFormat {
     append_cell(row, p.x, decimals_of(p.var_x)), append_cell(row, p.y, decimals_of(p.var_y));
     const auto values = values_of(p);
     for (std::size_t i = 2; i < values.size(); ++i) append_cell(row, values[i]);
+    if (covariance_) {
+      for (const double value : velocity_covariance(p)) append_cell(row, value);
+    }
     for (const double probability : p.mode_probability) append_cell(row, probability);
     return row + '\n';
   }
   std::string trailer(const Estimates& estimated) const override {
     return estimate_lines("##", &estimated);
   }
+
+ private:
+  bool covariance_;
 };
 
 /// One object a line: first the run with what was estimated, then a point each under the names of
@@ -102,10 +112,8 @@ class JsonLinesFormat : public TrackFormat {
   std::string point(const TrackPoint& p) const override {
     nlohmann::ordered_json line = {
         {"frame", p.frame}, {"time", p.time}, {"track_id", p.track_id}, {"status", name(p.status)}};
-    const auto values = values_of(p);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      line[std::string(kValueNames[i])] = values[i];  // NaN becomes null
-    }
+    add(kValueNames, values_of(p), line);
+    add(kVelocityCovarianceNames, velocity_covariance(p), line);
     for (std::size_t i = 0; i < p.mode_probability.size() && i < modes_.size(); ++i) {
       line["p_" + modes_[i]] = p.mode_probability[i];
     }
@@ -116,6 +124,12 @@ class JsonLinesFormat : public TrackFormat {
   }
 
  private:
+  template <std::size_t N>
+  static void add(const std::array<std::string_view, N>& names, const std::array<double, N>& values,
+                  nlohmann::ordered_json& line) {
+    for (std::size_t i = 0; i < N; ++i) line[std::string(names[i])] = values[i];  // NaN: null
+  }
+
   std::vector<std::string> modes_;
 };
 
@@ -141,8 +155,8 @@ class MotFormat : public TrackFormat {
 
 }  // namespace
 
-std::unique_ptr<TrackFormat> track_format(const std::string& path) {
-  if (path.ends_with(".csv")) return std::make_unique<CsvFormat>();
+std::unique_ptr<TrackFormat> track_format(const std::string& path, bool covariance) {
+  if (path.ends_with(".csv")) return std::make_unique<CsvFormat>(covariance);
   if (path.ends_with(".jsonl") || path == kStandardOutput) {
     return std::make_unique<JsonLinesFormat>();
   }

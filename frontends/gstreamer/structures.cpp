@@ -10,14 +10,17 @@ namespace glint::gstreamer {
 namespace {
 
 GstStructure* track_structure(const TrackPoint& p, const std::string& tracker) {
-  return gst_structure_new("track", "tracker", G_TYPE_STRING, tracker.c_str(), "frame",
-                           G_TYPE_INT64, static_cast<gint64>(p.frame), "time", G_TYPE_DOUBLE,
-                           p.time, "track-id", G_TYPE_INT64, static_cast<gint64>(p.track_id),
-                           "status", G_TYPE_STRING, name(p.status).data(), "x", G_TYPE_DOUBLE, p.x,
-                           "y", G_TYPE_DOUBLE, p.y, "vx", G_TYPE_DOUBLE, p.vx, "vy", G_TYPE_DOUBLE,
-                           p.vy, "intensity", G_TYPE_DOUBLE, p.intensity, "existence",
-                           G_TYPE_DOUBLE, p.existence, "var-x", G_TYPE_DOUBLE, p.var_x, "cov-xy",
-                           G_TYPE_DOUBLE, p.cov_xy, "var-y", G_TYPE_DOUBLE, p.var_y, nullptr);
+  return gst_structure_new(
+      "track", "tracker", G_TYPE_STRING, tracker.c_str(), "frame", G_TYPE_INT64,
+      static_cast<gint64>(p.frame), "time", G_TYPE_DOUBLE, p.time, "track-id", G_TYPE_INT64,
+      static_cast<gint64>(p.track_id), "status", G_TYPE_STRING, name(p.status).data(), "x",
+      G_TYPE_DOUBLE, p.x, "y", G_TYPE_DOUBLE, p.y, "vx", G_TYPE_DOUBLE, p.vx, "vy", G_TYPE_DOUBLE,
+      p.vy, "intensity", G_TYPE_DOUBLE, p.intensity, "existence", G_TYPE_DOUBLE, p.existence,
+      "var-x", G_TYPE_DOUBLE, p.var_x, "cov-xy", G_TYPE_DOUBLE, p.cov_xy, "var-y", G_TYPE_DOUBLE,
+      p.var_y, "cov-x-vx", G_TYPE_DOUBLE, p.cov_x_vx, "cov-x-vy", G_TYPE_DOUBLE, p.cov_x_vy,
+      "cov-y-vx", G_TYPE_DOUBLE, p.cov_y_vx, "cov-y-vy", G_TYPE_DOUBLE, p.cov_y_vy, "var-vx",
+      G_TYPE_DOUBLE, p.var_vx, "cov-vx-vy", G_TYPE_DOUBLE, p.cov_vx_vy, "var-vy", G_TYPE_DOUBLE,
+      p.var_vy, nullptr);
 }
 
 const std::string& name_of(const Track& track, std::span<const std::string> trackers) {

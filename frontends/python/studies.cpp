@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "glint/engine/metrics/consistency.hpp"
 #include "glint/engine/scenario/scenario.hpp"
 #include "glint/experiments/experiment.hpp"
 
@@ -50,7 +51,13 @@ py::object mean(const Evaluation& scores, double value) {
   return scores.ospa.empty() ? py::object(py::none()) : number(value);
 }
 
-py::dict scores_dict(const Evaluation& e) {
+/// None for a mean over no points.
+py::object nees(const PointSum& of) {
+  if (of.points == 0) return py::none();
+  return py::dict("mean"_a = of.mean(), "points"_a = of.points);
+}
+
+py::dict scores_dict(const Evaluation& e, const Consistency& c) {
   return py::dict(
       "ospa"_a = py::dict("mean"_a = mean(e, e.mean_ospa.distance),
                           "localisation"_a = mean(e, e.mean_ospa.localisation),
@@ -69,7 +76,9 @@ py::dict scores_dict(const Evaluation& e) {
       "detect_delay"_a = per_truth(e, &TruthScore::detect_delay),
       "halt_delay"_a = per_truth(e, &TruthScore::halt_delay),
       "points"_a = py::dict("detected"_a = number(e.detected_points),
-                            "false_per_frame"_a = number(e.false_points_per_frame)));
+                            "false_per_frame"_a = number(e.false_points_per_frame)),
+      "position_nees"_a = nees(c.position_nees), "state_nees"_a = nees(c.state_nees),
+      "brier"_a = number(c.brier()), "brier_of_base_rate"_a = number(c.brier_of_base_rate()));
 }
 
 py::dict row_dict(const ExperimentRow& row) {
@@ -108,11 +117,13 @@ py::dict evaluate_rows(const TrackArray& tracks, const TruthArray& truth,
   const auto points = track_points(tracks);
   const auto truths = truth_points(truth);
   Evaluation scores;
+  Consistency stated;
   {
     const py::gil_scoped_release release;
     scores = evaluate(truths, points, options);
+    stated = consistency(truths, points, options.cutoff, options.frames);
   }
-  return scores_dict(scores);
+  return scores_dict(scores, stated);
 }
 
 py::dict run_named_experiment(const std::string& name, int runs, std::uint64_t seed, int threads) {

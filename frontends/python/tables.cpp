@@ -8,7 +8,8 @@
 namespace glint::python {
 void register_rows() {
   PYBIND11_NUMPY_DTYPE(glint_track, frame, time, track_id, tracker, status, x, y, vx, vy, intensity,
-                       existence, var_x, cov_xy, var_y);
+                       existence, var_x, cov_xy, var_y, cov_x_vx, cov_x_vy, cov_y_vx, cov_y_vy,
+                       var_vx, cov_vx_vy, var_vy);
   PYBIND11_NUMPY_DTYPE(TruthPoint, frame, track_id, x, y, vx, vy, intensity);
 }
 
@@ -34,14 +35,7 @@ TruthArray truth_array(const std::vector<TruthPoint>& truth) { return array_of(t
 std::vector<TrackPoint> track_points(const TrackArray& rows) {
   const auto all = rows.unchecked<1>();
   std::vector<TrackPoint> points;
-  for (py::ssize_t i = 0; i < all.shape(0); ++i) {
-    const glint_track& row = all(i);
-    TrackPoint point;
-    point.frame = row.frame, point.time = row.time, point.track_id = row.track_id;
-    point.status = static_cast<TrackStatus>(row.status);
-    point.x = row.x, point.y = row.y;
-    points.push_back(point);
-  }
+  for (py::ssize_t i = 0; i < all.shape(0); ++i) points.push_back(point_of(all(i)));
   return points;
 }
 

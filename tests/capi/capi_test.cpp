@@ -37,6 +37,10 @@ void expect_same(const glint_track& a, const TrackPoint& b) {
   EXPECT_TRUE(same(a.time, b.time) && same(a.x, b.x) && same(a.y, b.y) && same(a.vx, b.vx));
   EXPECT_TRUE(same(a.vy, b.vy) && same(a.intensity, b.intensity) && same(a.existence, b.existence));
   EXPECT_TRUE(same(a.var_x, b.var_x) && same(a.cov_xy, b.cov_xy) && same(a.var_y, b.var_y));
+  EXPECT_TRUE(same(a.cov_x_vx, b.cov_x_vx) && same(a.cov_x_vy, b.cov_x_vy));
+  EXPECT_TRUE(same(a.cov_y_vx, b.cov_y_vx) && same(a.cov_y_vy, b.cov_y_vy));
+  EXPECT_TRUE(same(a.var_vx, b.var_vx) && same(a.cov_vx_vy, b.cov_vx_vy));
+  EXPECT_TRUE(same(a.var_vy, b.var_vy));
 }
 
 TEST(CApi, GivesTheTracksOfTheEngine) {
@@ -52,7 +56,10 @@ TEST(CApi, GivesTheTracksOfTheEngine) {
     EXPECT_EQ(result.frame, frame.frame);
     EXPECT_GT(result.latency, 0);
     ASSERT_EQ(result.tracks, frame.tracks.size());
-    for (std::size_t i = 0; i < result.tracks; ++i) expect_same(tracks[i], frame.tracks[i]);
+    for (std::size_t i = 0; i < result.tracks; ++i) {
+      expect_same(tracks[i], frame.tracks[i]);
+      EXPECT_GT(tracks[i].var_vx * tracks[i].var_vy, std::pow(tracks[i].cov_vx_vy, 2));
+    }
     points += result.tracks;
   }
   EXPECT_GT(points, 10u);
@@ -196,6 +203,42 @@ TEST(CApi, OlderAndNewerHeadersWork) {
     EXPECT_EQ(longer[i].known.x, whole[i].x);
     EXPECT_EQ(longer[i].news, 7);
   }
+}
+
+/// glint_track before it had the velocity's covariance.
+struct EarlierTrack {
+  std::int64_t frame;
+  double time;
+  std::int64_t track_id;
+  std::int32_t tracker, status;
+  double x, y, vx, vy, intensity, existence, var_x, cov_xy, var_y;
+};
+
+TEST(CApi, AHeaderWithoutTheVelocitysCovarianceGetsTheTracksItKnows) {
+  static_assert(sizeof(EarlierTrack) == offsetof(glint_track, cov_x_vx));
+  const Handle ours = create("mm-phd"), theirs = create("mm-phd");
+  for (const Handle* engine : {&ours, &theirs}) {
+    push_clip(engine->get());
+    ASSERT_EQ(glint_finish(engine->get()), GLINT_OK);
+  }
+  constexpr std::size_t kRoom = 50;
+  std::array<glint_track, kRoom> tracks;
+  std::array<EarlierTrack, kRoom> earlier;
+  glint_result result = GLINT_RESULT_INIT, early = GLINT_RESULT_INIT;
+  early.track_size = sizeof(EarlierTrack);
+  std::size_t points = 0;
+  while (glint_poll(ours.get(), &result, tracks.data(), kRoom) == GLINT_OK) {
+    auto* first = reinterpret_cast<glint_track*>(earlier.data());
+    earlier.fill({-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    ASSERT_EQ(glint_poll(theirs.get(), &early, first, kRoom), GLINT_OK);
+    ASSERT_EQ(early.tracks, result.tracks);
+    for (std::size_t i = 0; i < result.tracks; ++i) {
+      EXPECT_EQ(std::memcmp(&earlier[i], &tracks[i], sizeof(EarlierTrack)), 0);
+    }
+    EXPECT_EQ(earlier[result.tracks].frame, -1);
+    points += result.tracks;
+  }
+  EXPECT_GT(points, 10u);
 }
 
 TEST(CApi, MistakesAreNamed) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -206,6 +207,50 @@ TEST(CliTrack, PointsFarFromTheOriginKeepTheirDigits) {
   EXPECT_NEAR(last.time, 2000000019.000001, 3e-7);
   EXPECT_NEAR(last.x, 1397634160.25, 1e-3);
   EXPECT_NEAR(last.y, 356785131.95, 1e-3);
+}
+
+TEST(CliTrack, CovariancesOfVelocitiesAreInPixelsAndSeconds) {
+  const Folder folder;
+  const std::string clip = folder / "clip";
+  ASSERT_EQ(glint(folder, "simulate crossing --seed 3 --format npy --out " + clip).code, 0);
+  const auto tracked = [&](const std::string& fps) {
+    const std::string out = folder / ("at" + fps + ".csv");
+    EXPECT_EQ(glint(folder, "track " + clip +
+                                "/frames.npy --tracker mm-phd --seed 5 --covariance "
+                                "--fps " +
+                                fps + " --out " + out)
+                  .code,
+              0);
+    return read_tracks(out);
+  };
+  const std::vector<TrackPoint> slow = tracked("1"), fast = tracked("25");
+  ASSERT_EQ(slow.size(), fast.size());
+  ASSERT_GT(slow.size(), 20u);
+  for (std::size_t i = 0; i < slow.size(); ++i) {
+    EXPECT_GT(slow[i].var_vx, 0);
+    EXPECT_NEAR(fast[i].var_vx / (625 * slow[i].var_vx), 1, 1e-6);
+    EXPECT_NEAR(fast[i].var_vy / (625 * slow[i].var_vy), 1, 1e-6);
+    EXPECT_NEAR(fast[i].cov_vx_vy, 625 * slow[i].cov_vx_vy, 1e-6 * fast[i].var_vx);
+    EXPECT_NEAR(fast[i].cov_x_vx, 25 * slow[i].cov_x_vx, 1e-6 * std::abs(fast[i].cov_x_vx));
+    EXPECT_NEAR(fast[i].cov_y_vy, 25 * slow[i].cov_y_vy, 1e-6 * std::abs(fast[i].cov_y_vy));
+    EXPECT_EQ(fast[i].var_x, slow[i].var_x);
+  }
+}
+
+TEST(CliTrack, EachTrackersFileHasTheCovarianceAskedFor) {
+  const Folder folder;
+  const std::string plain = " --tracker smc-phd --tracker viterbi --seed 5 --out ";
+  ASSERT_EQ(glint(folder, "track scene:crossing" + plain + (folder / "p.csv")).code, 0);
+  for (const std::string how : {"--covariance", "--covariance --revised"}) {
+    ASSERT_EQ(glint(folder, "track scene:crossing " + how + plain + (folder / "c.csv")).code, 0);
+    for (const std::string tracker : {"smc-phd", "viterbi"}) {
+      EXPECT_TRUE(has(content_of(folder / ("c." + tracker + ".csv")),
+                      ",var_x,cov_xy,var_y,cov_x_vx,cov_x_vy,cov_y_vx,cov_y_vy,var_vx,cov_vx_vy,"
+                      "var_vy"))
+          << how << ' ' << tracker;
+      EXPECT_FALSE(has(content_of(folder / ("p." + tracker + ".csv")), "var_vx"));
+    }
+  }
 }
 
 TEST(CliTrack, AnInputWithoutFramesIsAnError) {

@@ -133,6 +133,61 @@ TEST(Evaluate, SaysWhatIsToBeScored) {
             std::string::npos);
 }
 
+// One confirmed point with all of the covariance, whose errors are (1, 2) and (3, 4); one of the
+// position's alone; one that is no target's; and a tentative one.
+constexpr const char* kStated =
+    "frame,track_id,status,x,y,vx,vy,existence,var_x,cov_xy,var_y,"
+    "cov_x_vx,cov_x_vy,cov_y_vx,cov_y_vy,var_vx,cov_vx_vy,var_vy\n"
+    "0,4,confirmed,11,7,3,4,.9,4,1,2,0,0,0,0,9,0,4\n"
+    "1,4,confirmed,11,7,3,4,.8,1,0,1,,,,,,,\n"
+    "1,5,confirmed,90,90,0,0,.3,1,0,1,0,0,0,0,1,0,1\n"
+    "1,6,tentative,10,5,,,.7,,,,,,,,,,\n";
+
+nlohmann::json stated(const Folder& folder, const std::string& truth) {
+  const Outcome o = glint({"evaluate", "--truth", folder.write("truth.csv", truth), "--tracks",
+                           folder.write("tracks.csv", kStated), "--json"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  return nlohmann::json::parse(o.out);
+}
+
+TEST(Evaluate, SaysHowTrueTheStatedCovariancesAndExistenceAre) {
+  const Folder folder;
+  const auto json = stated(folder, "frame,track_id,x,y,vx,vy\n0,0,10,5,0,0\n1,0,10,5,0,0\n");
+  EXPECT_NEAR(json["position_nees"]["mean"].get<double>(), (2 + 5) / 2.0, 1e-12);
+  EXPECT_EQ(json["position_nees"]["points"], 2);
+  EXPECT_NEAR(json["state_nees"]["mean"].get<double>(), 2 + 1 + 4, 1e-12);
+  EXPECT_EQ(json["state_nees"]["points"], 1);
+  EXPECT_NEAR(json["brier"].get<double>(), (.01 + .04 + .09 + .09) / 4, 1e-12);
+  EXPECT_NEAR(json["brier_of_base_rate"].get<double>(), .75 * .25, 1e-12);
+}
+
+TEST(Evaluate, LeavesOutWhatIsNotKnown) {
+  const Folder folder;
+  const auto placed = stated(folder, "frame,track_id,x,y\n0,0,10,5\n1,0,10,5\n");
+  EXPECT_EQ(placed["position_nees"]["points"], 2);
+  EXPECT_TRUE(placed.contains("state_nees") && placed["state_nees"].is_null());
+  const auto table = [&](const std::string& tracks, const char* cutoff) {
+    return glint({"evaluate", "--truth", folder / "truth.csv", "--tracks", tracks, "--cutoff",
+                  cutoff})
+        .out;
+  };
+  const std::string known = table(folder / "tracks.csv", "5");
+  EXPECT_TRUE(test::has(known, "NEES of position           3.500 over 2 points")) << known;
+  EXPECT_FALSE(test::has(known, "NEES of state")) << known;
+  EXPECT_TRUE(test::has(known, "Brier's score of existence 0.057 over 4 points, 0.188")) << known;
+  // Nothing but the tentative point lies that close.
+  const std::string close = table(folder / "tracks.csv", "1");
+  EXPECT_FALSE(test::has(close, "NEES")) << close;
+  const std::string bare = folder.write("bare.csv", "frame,track_id,x,y\n0,1,10,5\n");
+  const std::string silent = table(bare, "5");
+  EXPECT_TRUE(test::has(silent, "false points per frame") && !test::has(silent, "Brier"));
+  const auto json = nlohmann::json::parse(
+      glint({"evaluate", "--truth", folder / "truth.csv", "--tracks", bare, "--json"}).out);
+  for (const char* key : {"position_nees", "state_nees", "brier", "brier_of_base_rate"}) {
+    EXPECT_TRUE(json.contains(key) && json[key].is_null()) << key;
+  }
+}
+
 TEST(Evaluate, NamesWhatIsMissing) {
   const Folder folder;
   const std::string truth = folder.write("truth.csv", "frame,track_id,x\n");

@@ -76,7 +76,7 @@ TEST(TrackFile, CsvReadsBackAndHoldsConfigurationAndNotes) {
   log.report(point(0, 1, 1.25, TrackStatus::tentative));
   log.report(point(1, 1, 2.25, TrackStatus::confirmed));
   {
-    TrackFile file(path, {"t", "[run]\nseed = 5\n"}, false);
+    TrackFile file(path, {"t", "[run]\nseed = 5\n"});
     for (int f : {0, 1}) file.write(log.at(f), log.mode_names());
     file.close(log, {"sigma 3"});
   }
@@ -96,6 +96,46 @@ TEST(TrackFile, CsvReadsBackAndHoldsConfigurationAndNotes) {
   EXPECT_TRUE(std::isnan(tracks[1].vx));
 }
 
+/// Known to 1, 2, 3, ... in the order of StateCovariance::fields().
+TrackPoint with_covariance(TrackPoint p) {
+  p.set_covariance({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  return p;
+}
+
+TEST(TrackFile, CsvHasTheVelocitysCovarianceIfAskedFor) {
+  const Folder folder;
+  const std::vector points{with_covariance(point(0, 1, 1.25, TrackStatus::confirmed))};
+  TrackLog log;
+  log.set_mode_names({"cv", "ct"});
+  log.report(points[0]);
+  for (const bool revised : {false, true}) {
+    const std::string path = folder / "t.csv";
+    TrackFile file(path, {"t", ""}, {revised, true});
+    file.write(points, log.mode_names());
+    file.close(log, {});
+    EXPECT_TRUE(has(content_of(path),
+                    ",var_x,cov_xy,var_y,cov_x_vx,cov_x_vy,cov_y_vx,cov_y_vy,var_vx,cov_vx_vy,"
+                    "var_vy,p_cv,p_ct\n"
+                    "0,0,1,confirmed,1.25,2.5,,,,0.75,1,2,3,4,5,6,7,8,9,10,0.25,0.75\n"))
+        << content_of(path);
+    const TrackPoint read = read_tracks(path).at(0);
+    EXPECT_EQ(StateCovariance::fields(read), StateCovariance::fields(points[0]));
+  }
+  TrackFile(folder / "t.csv", {"t", ""}).write(points, log.mode_names());
+  EXPECT_TRUE(has(content_of(folder / "t.csv"), ",var_y,p_cv,p_ct\n"));
+  EXPECT_TRUE(has(content_of(folder / "t.csv"), ",0.75,1,2,3,0.25,0.75\n"));
+  EXPECT_TRUE(std::isnan(read_tracks(folder / "t.csv").at(0).cov_x_vx));
+}
+
+TEST(TrackFile, WhatIsNotKnownOfTheVelocityIsEmpty) {
+  const Folder folder;
+  const std::string path = folder / "t.csv";
+  TrackFile(path, {"t", ""}, {.covariance = true})
+      .write(std::vector{point(0, 1, 1.25, TrackStatus::confirmed)}, {});
+  EXPECT_TRUE(has(content_of(path), ",0.75,,,,,,,,,,,0.25,0.75\n")) << content_of(path);
+  EXPECT_TRUE(std::isnan(read_tracks(path).at(0).var_vy));
+}
+
 /// Metres on a map, known to `sd`, at a time since 1970.
 TrackPoint far_away(double sd) {
   TrackPoint p = point(0, 4, 0, TrackStatus::confirmed);
@@ -109,7 +149,7 @@ TEST(TrackFile, LargeNumbersKeepTheDigitsThatCount) {
   for (const std::string name : {"t.csv", "t.jsonl"}) {
     for (const double sd : {0.02, 2e-6}) {
       const TrackPoint p = far_away(sd);
-      TrackFile(folder / name, {"t", ""}, false).write(std::vector{p}, {});
+      TrackFile(folder / name, {"t", ""}).write(std::vector{p}, {});
       const std::string text = content_of(folder / name);
       TrackPoint q;
       if (name == "t.csv") {
@@ -123,7 +163,7 @@ TEST(TrackFile, LargeNumbersKeepTheDigitsThatCount) {
       EXPECT_NEAR(q.time, p.time, 3e-7) << text;
     }
   }
-  TrackFile(folder / "t.mot.txt", {"t", ""}, false).write(std::vector{far_away(0.02)}, {});
+  TrackFile(folder / "t.mot.txt", {"t", ""}).write(std::vector{far_away(0.02)}, {});
   EXPECT_EQ(content_of(folder / "t.mot.txt"), "1,4,9999997.53,-5000002.54,7,7,0.75,-1,-1,-1\n");
 }
 
@@ -131,14 +171,14 @@ TEST(TrackFile, ASpreadThatIsNotKnownLeavesAThousandth) {
   const Folder folder;
   TrackPoint p = far_away(0.02);
   p.var_x = p.var_y = TrackPoint::kUnknown;
-  TrackFile(folder / "t.csv", {"t", ""}, false).write(std::vector{p}, {});
+  TrackFile(folder / "t.csv", {"t", ""}).write(std::vector{p}, {});
   EXPECT_TRUE(has(content_of(folder / "t.csv"),
                   "\n0,2000000000.000001,4,confirmed,10000000.03,-5000000.04,"));
 }
 
 TEST(TrackFile, EveryFrameIsThereBeforeTheEnd) {
   const Folder folder;
-  TrackFile file(folder / "t.csv", {"t", ""}, false);
+  TrackFile file(folder / "t.csv", {"t", ""});
   const std::vector points{point(0, 1, 1, TrackStatus::confirmed)};
   file.write(points, {});
   EXPECT_EQ(read_tracks(folder / "t.csv").size(), 1u);
@@ -147,7 +187,7 @@ TEST(TrackFile, EveryFrameIsThereBeforeTheEnd) {
 TEST(TrackFile, EstimatesThatDoNotFitTheHeaderComeLast) {
   const Folder folder;
   const std::string path = folder / "t.csv", note(2000, 'x');
-  TrackFile file(path, {"t", ""}, false);
+  TrackFile file(path, {"t", ""});
   file.write(std::vector{point(0, 1, 1, TrackStatus::confirmed)}, {});
   file.close({}, {note});
   EXPECT_TRUE(content_of(path).ends_with("## estimated: " + note + "\n"));
@@ -161,7 +201,7 @@ TEST(TrackFile, APipeGetsTheEstimatesLast) {
   std::string text;
   std::thread reader([&] { text = content_of(path); });
   {
-    TrackFile file(path, {"t", ""}, false);
+    TrackFile file(path, {"t", ""});
     file.write(std::vector{point(0, 1, 1, TrackStatus::confirmed)}, {});
     file.close({}, {"sigma 3"});
   }
@@ -174,7 +214,7 @@ TEST(TrackFile, LatePointsAreAdded) {
   const Folder folder;
   TrackLog log;
   log.report(point(1, 1, 1, TrackStatus::confirmed));
-  TrackFile file(folder / "t.csv", {"t", ""}, false);
+  TrackFile file(folder / "t.csv", {"t", ""});
   file.write(log.at(1), {});
   log.report(point(0, 1, 0, TrackStatus::confirmed));
   file.close(log, {});
@@ -186,7 +226,7 @@ TEST(TrackFile, RevisedReplacesWhatWasReported) {
   TrackLog log;
   log.report(point(0, 1, 1, TrackStatus::tentative));
   log.report(point(0, 2, 1, TrackStatus::tentative));
-  TrackFile file(folder / "t.csv", {"t", ""}, true);
+  TrackFile file(folder / "t.csv", {"t", ""}, {.revised = true});
   file.write(log.at(0), {});
   log.confirm(1, 0);
   log.drop(2, 0);
@@ -199,13 +239,15 @@ TEST(TrackFile, RevisedReplacesWhatWasReported) {
 TEST(TrackFile, JsonLinesAreObjectsWithTheNamesOfTheColumns) {
   const Folder folder;
   TrackLog log;
-  TrackFile file(folder / "t.jsonl", {"t", "[run]\n"}, false);
-  file.write(std::vector{point(3, 9, 1.5, TrackStatus::halted)}, {"cv", "ct"});
+  TrackFile file(folder / "t.jsonl", {"t", "[run]\n"});
+  file.write(std::vector{with_covariance(point(3, 9, 1.5, TrackStatus::halted)),
+                         point(4, 9, 1.5, TrackStatus::halted)},
+             {"cv", "ct"});
   file.close(log, {"note"});
   std::istringstream lines(content_of(folder / "t.jsonl"));
   std::vector<nlohmann::json> json;
   for (std::string line; std::getline(lines, line);) json.push_back(nlohmann::json::parse(line));
-  ASSERT_EQ(json.size(), 2u);
+  ASSERT_EQ(json.size(), 3u);
   EXPECT_EQ(json[0]["config"], "[run]\n");
   EXPECT_EQ(json[1]["frame"], 3);
   EXPECT_EQ(json[1]["status"], "halted");
@@ -213,11 +255,17 @@ TEST(TrackFile, JsonLinesAreObjectsWithTheNamesOfTheColumns) {
   EXPECT_TRUE(json[1]["vx"].is_null());
   EXPECT_EQ(json[1]["p_ct"], 0.75);
   EXPECT_EQ(json[0]["estimated"][0], "note");
+  double value = 0;
+  for (const char* name : {"var_x", "cov_xy", "var_y", "cov_x_vx", "cov_x_vy", "cov_y_vx",
+                           "cov_y_vy", "var_vx", "cov_vx_vy", "var_vy"}) {
+    EXPECT_EQ(json[1][name], ++value) << name;
+    EXPECT_TRUE(json[2].contains(name) && json[2][name].is_null()) << name;
+  }
 }
 
 TEST(TrackFile, MotCountsFromOneAndHoldsConfirmedPointsOnly) {
   const Folder folder;
-  TrackFile file(folder / "t.mot.txt", {"t", ""}, false);
+  TrackFile file(folder / "t.mot.txt", {"t", ""});
   file.write(
       std::vector{point(0, 4, 10, TrackStatus::confirmed), point(0, 5, 10, TrackStatus::tentative)},
       {});
@@ -226,8 +274,8 @@ TEST(TrackFile, MotCountsFromOneAndHoldsConfirmedPointsOnly) {
 
 TEST(TrackFile, AnUnwritableFileIsFoundOutAtOnce) {
   const Folder folder;
-  EXPECT_THROW(TrackFile(folder / "no/such/t.csv", {}, false), UsageError);
-  EXPECT_THROW(TrackFile(folder / "t.xml", {}, false), UsageError);
+  EXPECT_THROW(TrackFile(folder / "no/such/t.csv", {}), UsageError);
+  EXPECT_THROW(TrackFile(folder / "t.xml", {}), UsageError);
 }
 
 }  // namespace

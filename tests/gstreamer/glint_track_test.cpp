@@ -31,6 +31,9 @@ std::vector<std::uint64_t> bits_of(const TrackPoint& p) {
        {p.time, p.x, p.y, p.vx, p.vy, p.intensity, p.existence, p.var_x, p.cov_xy, p.var_y}) {
     bits.push_back(std::bit_cast<std::uint64_t>(value));
   }
+  for (const double value : velocity_covariance(p)) {
+    bits.push_back(std::bit_cast<std::uint64_t>(value));
+  }
   return bits;
 }
 
@@ -76,7 +79,9 @@ TEST_F(GlintTrack, PostsTheTracksOfEachPicture) {
   Pipeline pipeline(source() + "glinttrack tracker=mm-phd ! fakesink");
   ASSERT_EQ(pipeline.run(), "");
   expect_clip(pipeline.posted);
-  EXPECT_GT(pipeline.posted.back().tracks.size(), 0u);
+  ASSERT_GT(pipeline.posted.back().tracks.size(), 0u);
+  const TrackPoint& last = pipeline.posted.back().tracks[0];
+  EXPECT_GT(last.var_vx * last.var_vy, last.cov_vx_vy * last.cov_vx_vy);
 }
 
 TEST_F(GlintTrack, PicturesPassThroughWithoutACopy) {

@@ -42,7 +42,10 @@ inline TrackPoint point_of(const GstStructure* s) {
                                    : TrackStatus::tentative;
   p.x = number(s, "x"), p.y = number(s, "y"), p.vx = number(s, "vx"), p.vy = number(s, "vy");
   p.intensity = number(s, "intensity"), p.existence = number(s, "existence");
-  p.var_x = number(s, "var-x"), p.cov_xy = number(s, "cov-xy"), p.var_y = number(s, "var-y");
+  p.set_covariance({number(s, "var-x"), number(s, "cov-xy"), number(s, "var-y"),
+                    number(s, "cov-x-vx"), number(s, "cov-x-vy"), number(s, "cov-y-vx"),
+                    number(s, "cov-y-vy"), number(s, "var-vx"), number(s, "cov-vx-vy"),
+                    number(s, "var-vy")});
   return p;
 }
 

@@ -15,6 +15,8 @@ import glint  # noqa: E402
 START = datetime.datetime(2024, 5, 1, 12)
 PERIOD = 0.04
 POSITION = ["frame", "time", "track_id", "x", "y", "var_x", "cov_xy", "var_y"]
+VELOCITY = ["vx", "vy", "cov_x_vx", "cov_x_vy", "cov_y_vx", "cov_y_vy", "var_vx", "cov_vx_vy",
+            "var_vy"]
 
 
 def tracks():
@@ -48,8 +50,43 @@ def test_velocities_stand_beside_their_places():
     whole = tracks()
     there = soup.to_tracks(whole, START, velocity=True, include_tentative=True)
     back = soup.from_tracks(there, START, PERIOD, position=(0, 2), velocity=(1, 3))
-    for name in ["x", "y", "vx", "vy"]:
-        assert (back[name] == whole[name]).all(), name
+    for name in POSITION + VELOCITY:
+        np.testing.assert_allclose(back[name], whole[name], rtol=0, atol=1e-6, err_msg=name)
+    assert (back["vx"] == whole["vx"]).all() and (whole["var_vx"] > 0).all()
+
+
+def known():
+    """One row, its covariance 1 to 10 in the order of the array's fields."""
+    row = np.zeros(1, glint.TRACK)
+    row["status"], row["track_id"] = glint.Status.CONFIRMED, 1
+    row["x"], row["vx"], row["y"], row["vy"] = 11, 12, 13, 14
+    for value, name in enumerate(POSITION[-3:] + VELOCITY[2:], 1):
+        row[name] = value
+    return row
+
+
+def test_a_state_has_the_whole_covariance_in_its_own_order():
+    (track,) = soup.to_tracks(known(), START, velocity=True)
+    assert np.ravel(track[0].state_vector).tolist() == [11, 12, 13, 14]
+    assert np.asarray(track[0].covar).tolist() == [
+        [1, 4, 2, 5],
+        [4, 8, 6, 9],
+        [2, 6, 3, 7],
+        [5, 9, 7, 10],
+    ]
+    (back,) = soup.from_tracks([track], START, PERIOD, position=(0, 2), velocity=(1, 3))
+    for name in POSITION[-3:] + VELOCITY:
+        assert back[name] == known()[name][0], name
+    (placed,) = soup.from_tracks([track], START, PERIOD, position=(0, 2))
+    assert placed["var_y"] == 3
+    assert all(np.isnan(placed[name]) for name in VELOCITY)
+
+
+def test_a_covariance_that_is_known_in_part_is_none():
+    row = known()
+    row["cov_vx_vy"] = np.nan
+    assert not hasattr(soup.to_tracks(row, START, velocity=True)[0][0], "covar")
+    assert hasattr(soup.to_tracks(row, START)[0][0], "covar")
 
 
 def test_truth_comes_back_as_it_was():

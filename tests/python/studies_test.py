@@ -36,9 +36,10 @@ def test_scores_are_the_commands(scene, tmp_path):
     tracks = glint.track(scene.frames, scene.times, "smc-phd", background="none")
     confirmed = tracks[tracks["status"] == glint.Status.CONFIRMED]
     assert len(confirmed) > 5
-    for name, table in [("tracks", confirmed), ("truth", scene.truth)]:
-        lines = ["frame,track_id,x,y"]
-        lines += [f"{r['frame']},{r['track_id']},{r['x']:.17g},{r['y']:.17g}" for r in table]
+    for name, table in [("tracks", tracks), ("truth", scene.truth)]:
+        columns = glint.tracks_dict(table)
+        lines = [",".join(columns)]
+        lines += [",".join(map(str, row)) for row in zip(*columns.values())]
         (tmp_path / f"{name}.csv").write_text("\n".join(lines) + "\n")
     printed = glint_command("evaluate", "--truth", str(tmp_path / "truth.csv"),
                             "--tracks", str(tmp_path / "tracks.csv"),
@@ -46,6 +47,23 @@ def test_scores_are_the_commands(scene, tmp_path):
     scores = glint.evaluate(tracks, scene.truth, cutoff=4, frames=45)
     assert json.loads(json.dumps(scores)) == json.loads(printed)
     assert scores["points"]["detected"] > 0.2
+    assert scores["position_nees"]["points"] > 5 and scores["state_nees"]["mean"] > 0
+    assert 0 < scores["brier"] < 1
+
+
+def test_columns_that_a_table_lacks_are_not_known(scene):
+    tracks = glint.track(scene.frames, scene.times, "smc-phd", background="none")
+    expected = glint.evaluate(tracks, scene.truth)
+    earlier = {name: tracks[name] for name in glint.TRACK.names[:-7]}
+    scores = glint.evaluate(earlier, scene.truth)
+    assert expected["state_nees"] and scores["state_nees"] is None
+    del expected["state_nees"], scores["state_nees"]
+    assert scores == expected
+    bare = {name: tracks[name] for name in ["frame", "track_id", "x", "y"]}
+    places = {name: scene.truth[name] for name in ["frame", "track_id", "x", "y"]}
+    scores = glint.evaluate(bare, places)
+    assert scores["brier"] is None and scores["position_nees"] is None
+    assert glint.evaluate(tracks, places)["state_nees"] is None
 
 
 def test_tables_are_arrays_or_columns(scene):

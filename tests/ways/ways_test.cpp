@@ -124,7 +124,9 @@ class Ways : public testing::TestWithParam<std::tuple<std::string, int>> {
                                        : TrackStatus::tentative;
       p.x = number("x"), p.y = number("y"), p.vx = number("vx"), p.vy = number("vy");
       p.intensity = number("intensity"), p.existence = number("existence");
-      p.var_x = number("var_x"), p.cov_xy = number("cov_xy"), p.var_y = number("var_y");
+      p.set_covariance({number("var_x"), number("cov_xy"), number("var_y"), number("cov_x_vx"),
+                        number("cov_x_vy"), number("cov_y_vx"), number("cov_y_vy"),
+                        number("var_vx"), number("cov_vx_vy"), number("var_vy")});
       append(rows, {p});
     }
     return rows;

@@ -201,6 +201,8 @@ def _rows(table: Any, rows: np.dtype[np.void]) -> npt.NDArray[np.void]:
         raise ValueError(f"a table needs the columns {', '.join(needed)}; missing: {missing}")
     array = np.zeros(len(table["frame"]), rows)
     for name in rows.names or ():
+        if rows[name].kind == "f":
+            array[name] = np.nan
         if name in names:
             column = np.asarray(table[name])
             if name == "status" and column.dtype.kind in "UO":
@@ -224,7 +226,10 @@ def evaluate(
     Both are structured arrays, dicts of columns or DataFrames with frame, track_id, x and y [px];
     tracks without `status` count as confirmed. `cutoff` [px] and `order` are those of OSPA and
     GOSPA. Scored are frames 0 to `frames` - 1, by default up to the last in either table; delays
-    are in frames; None stands for what is undefined. Raises ValueError.
+    are in frames; None stands for what is undefined. `position_nees` and `state_nees` say how true
+    the covariances of position and of position and velocity are (a mean of 2 and of 4 if they are
+    right), `brier` how true `existence` is. Columns that a table lacks are not known. Raises
+    ValueError.
     """
     rows = _rows(tracks, TRACK)
     if len(np.unique(rows["tracker"])) > 1:

@@ -22,6 +22,25 @@ _EPOCH = datetime.datetime(1970, 1, 1)
 _LATE = 0.25  # of a period: beyond it a time is no frame's
 
 
+# The upper triangle of the covariance of (x, y, vx, vy), as TRACK names it.
+_COVARIANCE = {
+    ("x", "x"): "var_x",
+    ("x", "y"): "cov_xy",
+    ("y", "y"): "var_y",
+    ("x", "vx"): "cov_x_vx",
+    ("x", "vy"): "cov_x_vy",
+    ("y", "vx"): "cov_y_vx",
+    ("y", "vy"): "cov_y_vy",
+    ("vx", "vx"): "var_vx",
+    ("vx", "vy"): "cov_vx_vy",
+    ("vy", "vy"): "var_vy",
+}
+
+
+def _covariance(a: str, b: str) -> str:
+    return _COVARIANCE.get((a, b)) or _COVARIANCE[b, a]
+
+
 def _date(start: datetime.datetime, seconds: float) -> datetime.datetime:
     return start + datetime.timedelta(seconds=float(seconds))
 
@@ -29,13 +48,12 @@ def _date(start: datetime.datetime, seconds: float) -> datetime.datetime:
 def _state(row: np.void, date: datetime.datetime, velocity: bool) -> Any:
     from stonesoup.types.state import GaussianState, State
 
-    if velocity:
-        return State([[row["x"]], [row["vx"]], [row["y"]], [row["vy"]]], timestamp=date)
-    place = [[row["x"]], [row["y"]]]
-    covar = np.array([[row["var_x"], row["cov_xy"]], [row["cov_xy"], row["var_y"]]])
+    order = ("x", "vx", "y", "vy") if velocity else ("x", "y")
+    vector = [[row[name]] for name in order]
+    covar = np.array([[row[_covariance(a, b)] for b in order] for a in order])
     if np.isnan(covar).any():
-        return State(place, timestamp=date)
-    return GaussianState(place, covar, timestamp=date)
+        return State(vector, timestamp=date)
+    return GaussianState(vector, covar, timestamp=date)
 
 
 def _groups(rows: npt.NDArray[np.void]) -> list[tuple[int, npt.NDArray[np.void]]]:
@@ -53,9 +71,9 @@ def to_tracks(
 ) -> list[Any]:
     """`stonesoup.types.track.Track`, one a track of the array, its id the track's number in text.
 
-    States are positions (x, y) [px], with their covariance where it is known. With `velocity` they
-    are (x, vx, y, vy) without one: Glint reports none of velocities. Raises ValueError for
-    tracks of several trackers.
+    States are positions (x, y) [px], with `velocity` (x, vx, y, vy) [px, px/s]: GaussianState with
+    their covariance where all of it is known, else State. Raises ValueError for tracks of several
+    trackers.
     """
     from stonesoup.types.track import Track
 
@@ -131,16 +149,18 @@ def _rows_from(
             row["frame"] = _frame(state.timestamp, start, period)
             row["track_id"] = number
             vector = np.asarray(state.state_vector, float).ravel()
-            row["x"], row["y"] = vector[position[0]], vector[position[1]]
-            if velocity is not None:
-                row["vx"], row["vy"] = vector[velocity[0]], vector[velocity[1]]
+            at = dict(zip(("x", "y", "vx", "vy"), position + (velocity or ())))
+            for name, i in at.items():
+                row[name] = vector[i]
             if "time" in (dtype.names or ()):
                 row["time"] = (state.timestamp - start).total_seconds()
                 row["status"] = Status.CONFIRMED
                 covar = getattr(state, "covar", None)
                 if covar is not None:
-                    block = np.asarray(covar, float)[np.ix_(position, position)]
-                    row["var_x"], row["cov_xy"], row["var_y"] = block[0, 0], block[0, 1], block[1, 1]
+                    covar = np.asarray(covar, float)
+                    for (a, b), name in _COVARIANCE.items():
+                        if a in at and b in at:
+                            row[name] = covar[at[a], at[b]]
             rows.append(row)
     if not rows:
         return np.zeros(0, dtype)
@@ -157,7 +177,8 @@ def from_tracks(
     """An array of the type `glint.TRACK`, all confirmed, by frame and track.
 
     `position` and `velocity` say where x and y stand in the state vector: (0, 2) and (1, 3) for
-    (x, vx, y, vy). Ids that are numbers are kept. Raises ValueError for times between two frames.
+    (x, vx, y, vy); of what is named the covariance is taken too. Ids that are numbers are kept.
+    Raises ValueError for times between two frames.
     """
     return _rows_from(tracks, TRACK, start, period, position, velocity)
 
