@@ -33,8 +33,8 @@ ExperimentResult run_dim_field(const ExperimentOptions& options, Workers& worker
 
 /// The same target at 3 dB with a cue within 3 px in its first frame, and a cue upon noise alone:
 /// share of runs that hold the target, which is to have a confirmed point within 3 px of it in at
-/// least half of its frames and in most of the last five; frames until a track on noise ends. Not of
-/// a paper.
+/// least half of its frames and in most of the last five; frames with a confirmed
+/// track on noise. Not of a paper.
 ExperimentResult run_cue(const ExperimentOptions& options, Workers& workers);
 
 }  // namespace glint

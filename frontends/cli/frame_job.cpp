@@ -115,6 +115,18 @@ int frames_ahead(const FrameJob& job) {
   return job.config<FramesConfig>("frames").background_prime;
 }
 
+/// The first frame whose background is known, as far as trackers of frames need it.
+std::int64_t background_from(const FrameJob& job) {
+  const auto& frames = job.config<FramesConfig>("frames");
+  const bool learns = frames.background == BackgroundKind::temporal ||
+                      frames.background == BackgroundKind::registered;
+  const bool needed = std::ranges::any_of(job.trackers, [](const std::string& tracker) {
+    return find_tracker(tracker).feed == Feed::frames;
+  });
+  constexpr std::int64_t kSome = 5;  // a median of fewer frames holds the targets
+  return learns && needed && frames.background_prime == 0 ? kSome : 0;
+}
+
 /// Standard input and pipes by name.
 bool is_read_once(const FrameJob& job) {
   std::error_code unknown;
@@ -201,7 +213,8 @@ std::unique_ptr<Source> open_frames(const FrameJob& job) {
   const std::string& points = job.run().points;
   if (!points.empty()) frames = with_points(std::move(frames), points, warn);
   const std::string& cues = job.run().start_at;
-  return cues.empty() ? std::move(frames) : with_cues(std::move(frames), cues, warn);
+  return cues.empty() ? std::move(frames)
+                      : with_cues(std::move(frames), cues, warn, background_from(job));
 }
 
 Scheduler make_scheduler(const FrameJob& job) {

@@ -64,11 +64,12 @@ std::vector<FileCue> read_cues(const std::string& path) {
 
 class CuedSource : public Source {
  public:
-  CuedSource(std::unique_ptr<Source> frames, std::string path, Warn warn)
+  CuedSource(std::unique_ptr<Source> frames, std::string path, Warn warn, std::int64_t learned_from)
       : frames_(std::move(frames)),
         cues_(read_cues(path)),
         path_(std::move(path)),
-        warn_(std::move(warn)) {}
+        warn_(std::move(warn)),
+        learned_from_(learned_from) {}
 
   std::optional<SourceFrame> next() override {
     auto frame = frames_->next();
@@ -105,6 +106,12 @@ class CuedSource : public Source {
                       "starts no track there",
                       path_, cue.line, cue.cue.x, cue.cue.y, width, height));
     }
+    if (number_ < learned_from_) {
+      warn_(
+          fmt::format("{}:{}: the cue in frame {} comes before the background is known, and may be "
+                      "lost; --set frames.background_prime=100 learns it from 100 frames first",
+                      path_, cue.line, number_));
+    }
     frame.cues.push_back(cue.cue);
   }
 
@@ -119,14 +126,15 @@ class CuedSource : public Source {
   std::vector<FileCue> cues_;  // those that no frame has had yet
   std::string path_;
   Warn warn_;
+  std::int64_t learned_from_;
   std::int64_t number_ = 0;  // of the next frame
 };
 
 }  // namespace
 
 std::unique_ptr<Source> with_cues(std::unique_ptr<Source> frames, const std::string& path,
-                                  const Warn& warn) {
-  return std::make_unique<CuedSource>(std::move(frames), path, warn);
+                                  const Warn& warn, std::int64_t learned_from) {
+  return std::make_unique<CuedSource>(std::move(frames), path, warn, learned_from);
 }
 
 }  // namespace glint

@@ -164,6 +164,16 @@ TEST_P(CueOf, OneConfirmedTrackFollowsTheTargetFromTheFrameOfTheCue) {
   }
 }
 
+// Trackers of points report the cue's variance in its frame: sigma is 1.
+TEST_P(CueOf, TrackersOfPointsBeginWithItsVariance) {
+  if (GetParam().feed == Feed::frames) return;
+  const auto points = OneTarget(9).follow(GetParam()).at(9);
+  ASSERT_EQ(points.size(), 1u);
+  const double error = GetParam().name == "mmpf-pmht" ? 0.3 : 1e-9;  // of few particles
+  EXPECT_NEAR(points[0].var_x, 1, error);
+  EXPECT_NEAR(points[0].var_y, 1, error);
+}
+
 // But for the cue no tracker is as quick.
 TEST_P(CueOf, WithoutItNoTrackIsConfirmedAtOnce) {
   if (late() || GetParam().name == "mm-pf") return;  // one tells the past, one declares at once

@@ -64,6 +64,10 @@ TEST(CliTrack, TracksStartOnTheTargetsOfAFile) {
   const Result run = glint(folder, "track " + clip + " --tracker mm-phd --start-at " + clip +
                                        "/truth.csv --out " + tracks);
   ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(has(run.err, "comes before the background is known")) << run.err;
+  const Result primed = glint(folder, "track " + clip + " --tracker mm-phd --start-at " + clip +
+                                          "/truth.csv --set frames.background_prime=20");
+  EXPECT_FALSE(has(primed.err, "background")) << primed.err;
   EXPECT_TRUE(has(content_of(tracks), "# start_at = \"" + clip + "/truth.csv\"\n"));
   const std::vector<TrackPoint> points = read_tracks(tracks);
   const auto confirmed_at = [&](std::int64_t frame) {
