@@ -10,11 +10,6 @@
 namespace glint {
 namespace {
 
-bool scored(const TrackPoint& point, bool include_tentative) {
-  return point.status == TrackStatus::confirmed ||
-         (include_tentative && point.status == TrackStatus::tentative);
-}
-
 void note_frame(const std::vector<TruthPoint>& truth, const std::vector<TrackPoint>& reported,
                 const EvaluationOptions& options, std::size_t frame,
                 std::vector<TargetRecord>& targets) {
@@ -55,7 +50,7 @@ SceneScore score(const Scene& scene, const std::vector<TrackPoint>& points, bool
   note_halts(result.scores, points, scene.frames, result.targets);
   std::vector<TrackPoint> kept;
   for (const TrackPoint& point : points) {
-    if (scored(point, tentative)) kept.push_back(point);
+    if (is_scored(point, tentative)) kept.push_back(point);
   }
   const auto reported = by_frame(std::span<const TrackPoint>(kept), scene.frames);
   for (std::size_t k = 0; k < frames; ++k) {

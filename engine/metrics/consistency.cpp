@@ -71,7 +71,7 @@ Consistency consistency(std::span<const TruthPoint> truth, std::span<const Track
   const auto tracks_by_frame = by_frame(tracks, scored);
   for (std::size_t f = 0; f < tracks_by_frame.size(); ++f) {
     for (const TrackPoint& track : tracks_by_frame[f]) {
-      if (track.status != TrackStatus::halted) add_point(truth_by_frame[f], track, reach, result);
+      add_point(truth_by_frame[f], track, reach, result);
     }
   }
   return result;

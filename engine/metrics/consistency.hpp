@@ -23,7 +23,7 @@ struct Consistency {
   /// and of 4; more is too sure, less is too careful.
   PointSum position_nees, state_nees;
   /// Squared error of the stated existence probability against 1 with a truth within reach, else 0,
-  /// of all points but halted ones; and how many of them have one.
+  /// of all points, and how many of them have one.
   PointSum existence_error;
   std::int64_t real = 0;
 

@@ -32,12 +32,8 @@ struct Tally {
 
 std::vector<TrackPoint> scored_points(std::span<const TrackPoint> tracks, bool tentative) {
   std::vector<TrackPoint> scored;
-  for (const TrackPoint& point : tracks) {
-    if (point.status == TrackStatus::confirmed ||
-        (tentative && point.status == TrackStatus::tentative)) {
-      scored.push_back(point);
-    }
-  }
+  std::ranges::copy_if(tracks, std::back_inserter(scored),
+                       [&](const TrackPoint& point) { return is_scored(point, tentative); });
   return scored;
 }
 
@@ -136,6 +132,11 @@ void average(const Tally& tally, std::int64_t frames, Evaluation& result) {
 }
 
 }  // namespace
+
+bool is_scored(const TrackPoint& point, bool include_tentative) {
+  if (point.status == TrackStatus::tentative) return include_tentative && !(point.existence < 0.5);
+  return point.status == TrackStatus::confirmed;
+}
 
 Evaluation evaluate(std::span<const TruthPoint> truth, std::span<const TrackPoint> tracks,
                     const EvaluationOptions& options) {

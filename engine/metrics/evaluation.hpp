@@ -18,10 +18,14 @@ inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 struct EvaluationOptions {
   double cutoff = 5;               ///< [px]
   double order = 2;                ///< of OSPA and GOSPA
-  bool include_tentative = false;  ///< score tentative points like confirmed ones
+  bool include_tentative = false;  ///< see is_scored()
   /// Scored are frames 0 to frames - 1; without it, up to the last frame that is mentioned.
   std::optional<std::int64_t> frames;
 };
+
+/// Whether a point claims a target: a confirmed one does, and, if asked for, a tentative one that
+/// does not state an existence below 1/2.
+bool is_scored(const TrackPoint& point, bool include_tentative);
 
 /// What became of one truth. NaN where undefined.
 struct TruthScore {
@@ -38,7 +42,7 @@ struct TruthScore {
 
 /// How well tracks follow truths. Matched = assigned within the cut-off at a frame. A track counts
 /// for the truth that is within the cut-off of most of its points, if these are at least half.
-/// Scored are confirmed points (and tentative ones if asked for), never halted ones.
+/// Scored are the points that is_scored() names, never halted ones.
 struct Evaluation {
   std::vector<Ospa> ospa;    ///< one a frame
   std::vector<Gospa> gospa;  ///< one a frame

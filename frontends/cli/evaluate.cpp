@@ -218,7 +218,7 @@ void add_evaluate(Command& program) {
               "At most so many false points a frame for the baseline, in place of the tracks'")
       .in_range(0.0, 1e6);
   command.flag("--include-tentative", request->options.include_tentative,
-               "Score tentative points too, not only confirmed ones");
+               "Score tentative points too, but for those that state an existence below 1/2");
   command.flag("--json", request->json, "Print JSON instead of a table");
   command.footer(
       "Truth needs the columns frame, track_id, x, y (or frame0, linked_id, cx, cy), tracks the\n"

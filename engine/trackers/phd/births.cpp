@@ -7,42 +7,30 @@
 #include <utility>
 
 #include "glint/engine/state/bytes.hpp"
-#include "glint/engine/trackers/phd/cued_particles.hpp"
 #include "glint/kernels/birth_scores/birth_scores.hpp"
 #include "glint/kernels/core/cells.hpp"
-#include "glint/kernels/core/tiles.hpp"
-#include "glint/kernels/particle_likelihood/particle_likelihood.hpp"
-#include "glint/kernels/pick_cells/pick_cells.hpp"
 #include "glint/kernels/pixel_likelihood/pixel_likelihood.hpp"
 #include "glint/kernels/resample/resample.hpp"
 
 namespace glint {
 namespace {
 
-constexpr std::size_t kBirthTile = 512;
+// Above it a pixel gets no more births, so that bright targets leave some to the dim ones. In a
+// proposal it is made up for by weights.
+constexpr float kMostLogRatio = 12;
 
-/// Pixels above the threshold, as flat indices.
-void cells_above(FrameView z, double threshold, std::vector<std::uint32_t>& cells) {
+/// Pixels above the threshold, as flat indices; none in the mask.
+void cells_above(FrameView z, const PixelMask& mask, double threshold,
+                 std::vector<std::uint32_t>& cells) {
   cells.clear();
   for (int y = 0; y < z.height; ++y) {
     for (int x = 0; x < z.width; ++x) {
-      if (z(x, y) >= threshold) cells.push_back(cell_at(x, y, z.width));
+      if (!(z(x, y) >= threshold)) continue;
+      if (!mask.covers(static_cast<float>(x), static_cast<float>(y))) {
+        cells.push_back(cell_at(x, y, z.width));
+      }
     }
   }
-}
-
-/// M summed over the window around a pixel that need not hold a particle.
-double window_sum(const CellWorkspace& cells, int width, int height, int half_width, int x, int y) {
-  const auto& cell = cells.runs.cell;
-  double sum = 0;
-  for (int j = std::max(0, y - half_width); j <= std::min(height - 1, y + half_width); ++j) {
-    const auto first = cell_at(std::max(0, x - half_width), j, width);
-    const auto last = cell_at(std::min(width - 1, x + half_width), j, width);
-    auto r =
-        static_cast<std::size_t>(std::lower_bound(cell.begin(), cell.end(), first) - cell.begin());
-    for (; r < cell.size() && cell[r] <= last; ++r) sum += cells.cell_sum[r];
-  }
-  return sum;
 }
 
 }  // namespace
@@ -76,12 +64,6 @@ void BirthFrame::restored() const {
       "a birth score is negative or not finite");
 }
 
-std::uint32_t Births::draw_mode(std::uint32_t word) const { return drawn_mode(birth_mode_, word); }
-
-float Births::draw_intensity(std::uint32_t word) const {
-  return drawn_intensity(intensity_low_, intensity_high_, word);
-}
-
 void Births::score(const Frame& z, const PixelMask& mask) {
   const FrameView view = z.for_kernels();
   std::swap(now_, before_);
@@ -102,181 +84,46 @@ void Births::score(const Frame& z, const PixelMask& mask) {
                             .energy = static_cast<float>(energy * energy),
                             .intensity_low = intensity_low_,
                             .intensity_high = intensity_high_,
+                            .high = kMostLogRatio,
                             .score = {scores.data(), view.width, view.height, view.width},
                             .masked = mask.boxes(),
                             .row_sums = row_sums_});
   now_.total = std::accumulate(row_sums_.begin(), row_sums_.end(), 0.0);
 }
 
-std::size_t Births::draw(const BirthScan& scan, Particles& particles, std::size_t at) {
-  if (proposal_ == BirthProposal::uniform) return draw_uniform(scan, particles, at);
+/// A pixel of noise has a score of about 1, one that may well show a target up to kMostLogRatio's.
+std::size_t Births::number_for(double score) const {
+  constexpr double kPixels = 256 * 256;  // of noise that birth_particles are enough for
+  const double times =
+      std::clamp(std::floor(score / kPixels), 1.0, static_cast<double>(config_.birth_growth));
+  return static_cast<std::size_t>(config_.birth_particles * times);
+}
+
+std::size_t Births::prepare(const BirthScan& scan) {
+  if (proposal_ == BirthProposal::uniform) {
+    cells_above(scan.z.view(), scan.mask, config_.birth_threshold, cells_);
+    return count_ = cells_.empty() ? 0 : static_cast<std::size_t>(config_.birth_particles);
+  }
   score(scan.z, scan.mask);
-  if (now_.total <= 0) return 0;
-  if (proposal_ == BirthProposal::matched_filter) return draw_matched(scan, particles, at);
-  const bool first =
-      before_.whitened.width() != scan.z.width() || before_.whitened.height() != scan.z.height();
-  return first || before_.total <= 0 ? 0 : draw_two_frame(scan, particles, at);
-}
-
-/// Completes the new-born particles from index `at` on and sends them to the device.
-void Births::send(Particles& particles, std::size_t at) const {
-  const auto count = static_cast<std::size_t>(config_.birth_particles);
-  for (auto* zero : {&particles.ax, &particles.ay}) {
-    std::fill_n(zero->begin() + static_cast<std::ptrdiff_t>(at), count, 0.0F);
+  double total = now_.total;
+  if (proposal_ == BirthProposal::two_frame) {
+    const bool first =
+        before_.whitened.width() != scan.z.width() || before_.whitened.height() != scan.z.height();
+    total = first || total <= 0 ? 0 : before_.total;
   }
-  std::fill_n(particles.label.begin() + static_cast<std::ptrdiff_t>(at), count, 0U);
-  particles.for_each_array([&](auto& a) { device_.send(std::span(a).subspan(at, count)); });
+  return count_ = total > 0 ? number_for(total) : 0;
 }
 
-std::size_t Births::draw_uniform(const BirthScan& scan, Particles& p, std::size_t at) {
-  const FrameView z = scan.z.view();
-  cells_above(z, config_.birth_threshold, cells_);
-  std::erase_if(cells_, [&](std::uint32_t cell) {
-    const Pixel pixel = pixel_at(cell, z.width);
-    return scan.mask.covers(static_cast<float>(pixel.x), static_cast<float>(pixel.y));
-  });
-  if (cells_.empty()) return 0;
-  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
-  const auto count = static_cast<std::size_t>(config_.birth_particles);
-  const auto speed = static_cast<float>(speed_max_);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 0);
-    const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 1);
-    const auto pick = static_cast<std::size_t>(uniform(a.w[0]) * static_cast<float>(cells_.size()));
-    const Pixel cell = pixel_at(cells_[std::min(pick, cells_.size() - 1)], z.width);
-    const std::size_t to = at + i;
-    // Around the cell: the target may peak in a neighbour of the cell that noise lifted.
-    p.x[to] = static_cast<float>(cell.x) + 3 * uniform(a.w[1]) - 1.5f;
-    p.y[to] = static_cast<float>(cell.y) + 3 * uniform(a.w[2]) - 1.5f;
-    p.vx[to] = speed * (2 * uniform(b.w[0]) - 1);
-    p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
-    p.intensity[to] = draw_intensity(b.w[2]);
-    p.mode[to] = draw_mode(b.w[3]);
-    p.weight[to] = static_cast<float>(config_.birth_mass / config_.birth_particles);  // P-PHD (30)
+void Births::draw(const BirthScan& scan, Particles& particles, std::size_t at) {
+  if (count_ == 0) return;
+  switch (proposal_) {
+    case BirthProposal::uniform:
+      return draw_uniform(scan, particles, at);
+    case BirthProposal::matched_filter:
+      return draw_matched(scan, particles, at);
+    case BirthProposal::two_frame:
+      return draw_two_frame(scan, particles, at);
   }
-  send(p, at);
-  return count;
-}
-
-/// `count` cells in proportion to their scores.
-void Births::draw_cells(const BirthFrame& frame, RandomKey key) {
-  const auto count = static_cast<std::size_t>(config_.birth_particles);
-  cells_.resize(count), cell_score_.resize(count);
-  const MovedArray scores{frame.score.values().data(), cell_score_.data()};
-  device_.run<Resample>({.weights = frame.score.values(),
-                         .ancestors = cells_,
-                         .key = key,
-                         .moved = std::span(&scores, 1),
-                         .workspace = &draws_});
-}
-
-/// For each of these cells of the frame before one of the present frame that a target may reach.
-void Births::pick_next_cells(RandomKey key, double step) {
-  const auto count = cells_.size();
-  uniform_.resize(count), next_cells_.resize(count);
-  next_score_.resize(count), next_total_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    uniform_[i] = uniform(random_words(key, static_cast<std::uint32_t>(i), 1).w[2]);
-  }
-  const int width = now_.whitened.width(), height = now_.whitened.height();
-  device_.run<PickCells>({.score = {now_.score.values().data(), width, height, width},
-                          .reach = static_cast<int>(std::ceil(speed_max_ * step)),
-                          .cell = cells_,
-                          .uniform = uniform_,
-                          .picked = next_cells_,
-                          .picked_score = next_score_,
-                          .total = next_total_});
-}
-
-std::size_t Births::draw_matched(const BirthScan& scan, Particles& p, std::size_t at) {
-  const int width = now_.whitened.width(), height = now_.whitened.height();
-  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
-  const auto count = static_cast<std::size_t>(config_.birth_particles);
-  const auto speed = static_cast<float>(speed_max_);
-  draw_cells(now_, key);
-  const double mean = now_.total / (static_cast<double>(width) * height);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
-    const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 2);
-    const Pixel cell = pixel_at(cells_[i], width);
-    const std::size_t to = at + i;
-    p.x[to] = static_cast<float>(cell.x) + uniform(a.w[0]) - 0.5f;
-    p.y[to] = static_cast<float>(cell.y) + uniform(a.w[1]) - 0.5f;
-    p.vx[to] = speed * (2 * uniform(b.w[0]) - 1);
-    p.vy[to] = speed * (2 * uniform(b.w[1]) - 1);
-    p.intensity[to] = draw_intensity(b.w[2]);
-    p.mode[to] = draw_mode(b.w[3]);
-    p.weight[to] =
-        static_cast<float>(config_.birth_mass / config_.birth_particles * mean / cell_score_[i]);
-  }
-  send(p, at);
-  return count;
-}
-
-std::size_t Births::draw_two_frame(const BirthScan& scan, Particles& p, std::size_t at) {
-  const double step = scan.step;
-  const int width = now_.whitened.width(), height = now_.whitened.height();
-  const RandomKey key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth);
-  const auto count = static_cast<std::size_t>(config_.birth_particles);
-  for (auto* v : {&x_before_, &y_before_, &log_ratio_}) v->resize(count);
-  draw_cells(before_, key);
-  pick_next_cells(key, step);
-
-  const double mean = before_.total / (static_cast<double>(width) * height);
-  const double area = 4 * speed_max_ * step * speed_max_ * step;
-  const Tiles tiles{count, kBirthTile};
-  device_.workers().for_tiles(tiles.tiles(), [&](std::size_t tile) {
-    for (std::size_t i = tiles.begin(tile); i < tiles.end(tile); ++i) {
-      const Words4 a = random_words(key, static_cast<std::uint32_t>(i), 1);
-      const Words4 b = random_words(key, static_cast<std::uint32_t>(i), 2);
-      const auto [cx, cy] = pixel_at(cells_[i], width);
-      const Pixel next = pixel_at(next_cells_[i], width);
-      const double next_score = next_score_[i];
-      const std::size_t to = at + i;
-      x_before_[i] = static_cast<float>(cx) + uniform(a.w[0]) - 0.5f;
-      y_before_[i] = static_cast<float>(cy) + uniform(a.w[1]) - 0.5f;
-      p.x[to] = static_cast<float>(next.x) + uniform(b.w[0]) - 0.5f;
-      p.y[to] = static_cast<float>(next.y) + uniform(b.w[1]) - 0.5f;
-      p.vx[to] = static_cast<float>((p.x[to] - x_before_[i]) / step);
-      p.vy[to] = static_cast<float>((p.y[to] - y_before_[i]) / step);
-      p.intensity[to] = draw_intensity(b.w[2]);
-      p.mode[to] = draw_mode(b.w[3]);
-      // What living targets already explain of this cell is no birth: 1 / (clutter + B).
-      const double explained =
-          scan.clutter + window_sum(scan.previous, width, height, spread_.half_width, cx, cy);
-      const bool possible =  // all cells in reach may be masked
-          next_score > 0 && std::abs(p.vx[to]) <= speed_max_ && std::abs(p.vy[to]) <= speed_max_;
-      const double weight = config_.birth_mass / config_.birth_particles * mean / cell_score_[i] *
-                            next_total_[i] / (area * next_score) / explained;
-      p.weight[to] = possible ? static_cast<float>(weight) : 0.0f;
-    }
-  });
-  send(p, at);
-  device_.run<ParticleLikelihood>(
-      {.frame = before_.whitened.for_kernels(),
-       .spread = spread_,
-       .x = x_before_,
-       .y = y_before_,
-       .intensity = std::span(p.intensity).subspan(at, count),
-       .log_ratio = log_ratio_,
-       .jitter = jitter_,
-       .key = random_key(seed_, static_cast<std::uint64_t>(scan.frame), Purpose::birth_jitter)});
-  // The new-born already lived a frame ago and share its pixels, so P-PHD (14) holds for them too.
-  const std::span<float> predicted = std::span(p.weight).subspan(at, count);
-  updated_.resize(count);
-  device_.run<CellWeights>({.width = width,
-                            .height = height,
-                            .half_width = spread_.half_width,
-                            .clutter = 1,
-                            .x = x_before_,
-                            .y = y_before_,
-                            .predicted = predicted,
-                            .log_ratio = log_ratio_,
-                            .updated = updated_,
-                            .workspace = &shares_});
-  std::copy(updated_.begin(), updated_.end(), predicted.begin());
-  device_.send(predicted);
-  return count;
 }
 
 }  // namespace glint

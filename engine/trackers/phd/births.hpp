@@ -30,6 +30,7 @@ enum class BirthProposal {
 struct BirthConfig {
   BirthProposal birth = BirthProposal::two_frame;
   int birth_particles = 4000;    ///< new-born particles a frame, J
+  int birth_growth = 1;          ///< J is up to so many times as large where more can be born
   double birth_mass = 0.05;      ///< expected new-born targets a frame, gamma
   double birth_threshold = 1.5;  ///< of the uniform proposal [noise sigmas]
 };
@@ -69,10 +70,12 @@ class Births {
   /// Sets what new-born targets look like; forgets the frame before.
   void set_appearance(const TargetAppearance& appearance);
 
-  /// Writes `birth_particles` particles to `particles` from index `at` on (already resized), on the
-  /// host and on the device if they are resident. Returns how many were written: none if there is
-  /// nothing to draw from (no frame before, no cell above the threshold).
-  std::size_t draw(const BirthScan& scan, Particles& particles, std::size_t at);
+  /// Looks at the scan; returns how many particles are born: none if there is nothing to draw from
+  /// (no frame before, no cell above the threshold).
+  std::size_t prepare(const BirthScan& scan);
+  /// Writes the particles of the scan that prepare() got to `particles` from index `at` on (already
+  /// resized), on the host and on the device if they are resident.
+  void draw(const BirthScan& scan, Particles& particles, std::size_t at);
 
   // The present frame is the frame before of the next draw().
   template <class Self>
@@ -83,9 +86,10 @@ class Births {
 
  private:
   void score(const Frame& z, const PixelMask& mask);
-  std::size_t draw_uniform(const BirthScan& scan, Particles& p, std::size_t at);
-  std::size_t draw_matched(const BirthScan& scan, Particles& p, std::size_t at);
-  std::size_t draw_two_frame(const BirthScan& scan, Particles& p, std::size_t at);
+  std::size_t number_for(double score) const;
+  void draw_uniform(const BirthScan& scan, Particles& p, std::size_t at);
+  void draw_matched(const BirthScan& scan, Particles& p, std::size_t at);
+  void draw_two_frame(const BirthScan& scan, Particles& p, std::size_t at);
   void send(Particles& particles, std::size_t at) const;
   void draw_cells(const BirthFrame& frame, RandomKey key);
   void pick_next_cells(RandomKey key, double step);
@@ -101,6 +105,7 @@ class Births {
   Device device_;
   std::uint64_t seed_;
   BirthFrame now_, before_;
+  std::size_t count_ = 0;  // of particles that draw() writes
   ResidentImage<float> map_;
   std::vector<std::uint32_t> cells_, next_cells_;
   AlignedVector<float> cell_score_, uniform_, next_score_;

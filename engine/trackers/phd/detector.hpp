@@ -26,8 +26,7 @@ struct DetectorConfig : PhdFilterConfig {
 void describe_found_target(FieldList& f, DetectorConfig& c, FollowedTargetsConfig& followed);
 
 /// Finds the targets that have no track yet: a PHD filter that is masked around those that have
-/// one, and the peaks of its posterior mass. Each scan takes update(), find(), then resample() or
-/// clear().
+/// one, and the peaks of its posterior mass. Each scan takes update(), find(), then resample().
 class Detector {
  public:
   Detector(const DetectorConfig& config, const Device& device, std::uint64_t seed,
@@ -37,14 +36,13 @@ class Detector {
   /// Predicts and updates the PHD filter by the frame `z`. No particle keeps weight and none is
   /// born in the boxes around the targets that are followed. P-PHD (9)-(19), (36)
   void update(const Frame& z, const StepTime& at, std::span<const FollowedTarget> followed);
-  /// Sum of the weights: expected number of targets, or odds.
+  /// Expected number of targets.
   double expected() const { return filter_.expected(); }
   /// Clusters whose mass is at least `threshold`, by falling mass of their box; valid until the
   /// next call of a function that is not const.
   std::span<const Cluster> find(double threshold);
   /// Sets the weights of a found cluster's particles to 0.
   void remove(const Cluster& cluster) { filter_.remove(cluster.members); }
-  void clear() { filter_.clear(); }
   void resample(std::int64_t frame) { filter_.resample(frame); }
 
   template <class Self>

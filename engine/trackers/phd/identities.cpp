@@ -64,16 +64,14 @@ bool Identities::near_seen(const Peak& peak) const {
   });
 }
 
-// The peak's mass is what a PHD makes of the frame before and of this one. Without a peak in the
+// The mass is what a PHD makes of the frame before and of this one. Where none was found in the
 // frame before there is nothing to go on from but that.
-void Identities::see(Track& track, const Peak& peak, double step) const {
+void Identities::weigh(Track& track, const Peak& peak, double step) const {
   const double survival = std::pow(survival_, step);
   track.existence = track.mass > 0
                         ? bernoulli_update(track.existence, survival,
                                            ratio_of_mass(peak.mass, track.mass, survival))
                         : std::min(1.0, peak.mass);
-  track.seen = true, ++track.hits, track.misses = 0;
-  track.x = peak.x, track.y = peak.y, track.vx = peak.vx, track.vy = peak.vy;
   track.mass = peak.mass;
 }
 
@@ -94,9 +92,15 @@ std::uint32_t Identities::start(const Cue& cue, const StepTime& at) {
   return track.id;
 }
 
-void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32_t> members,
-                        Particles& particles, const StepTime& at, std::size_t modes,
-                        TrackLog& log) {
+void Identities::see(Track& track, const Peak& peak, double step) const {
+  weigh(track, peak, step);
+  track.seen = true, ++track.hits, track.misses = 0;
+  track.x = peak.x, track.y = peak.y, track.vx = peak.vx, track.vy = peak.vy;
+}
+
+void Identities::assign(std::span<const Peak> peaks, std::span<const Peak> faint,
+                        std::span<const std::uint32_t> members, Particles& particles,
+                        const StepTime& at, std::size_t modes, TrackLog& log) {
   for (auto& t : tracks_) t.seen = false, t.x += at.step * t.vx, t.y += at.step * t.vy;
   const auto of = [&](const Peak& p) { return members.subspan(p.first, p.last - p.first); };
   // Peaks that carry a label first: no other peak may take their tracks.
@@ -126,7 +130,25 @@ void Identities::assign(std::span<const Peak> peaks, std::span<const std::uint32
     report(*t, peaks[k], modes, at, log);
     if (t->hits == config_.confirm_hits) confirmed_now_.push_back({t->id, t->detected, k});
   }
+  pass_over(faint, members, particles, at, modes, log);
   halt_missing(at, log);
+}
+
+void Identities::pass_over(std::span<const Peak> faint, std::span<const std::uint32_t> members,
+                           const Particles& particles, const StepTime& at, std::size_t modes,
+                           TrackLog& log) {
+  left_.clear();
+  for (const Peak& peak : faint) {
+    Track* t = labelled(peak, members.subspan(peak.first, peak.last - peak.first), particles);
+    if (t == nullptr || std::ranges::find(left_, t->id) != left_.end()) continue;
+    left_.push_back(t->id);
+    weigh(*t, peak, at.step);
+    report(*t, peak, modes, at, log);
+  }
+  for (auto& t : tracks_) {
+    if (t.seen || std::ranges::find(left_, t.id) != left_.end()) continue;
+    t.mass = t.existence = 0;
+  }
 }
 
 void Identities::report(const Track& track, const Peak& peak, std::size_t modes, const StepTime& at,
@@ -134,21 +156,19 @@ void Identities::report(const Track& track, const Peak& peak, std::size_t modes,
   TrackPoint point = point_of(peak, modes, at);
   point.track_id = track.id;
   point.existence = track.existence;
-  const bool confirmed = track.hits >= config_.confirm_hits;
+  const bool confirmed = track.seen && track.hits >= config_.confirm_hits;
   point.status = confirmed ? TrackStatus::confirmed : TrackStatus::tentative;
   log.report(point);
-  if (track.hits == config_.confirm_hits) log.confirm(track.id, 0);
+  if (confirmed && track.hits == config_.confirm_hits) log.confirm(track.id, 0);
 }
 
 void Identities::halt_missing(const StepTime& at, TrackLog& log) {
   for (auto& t : tracks_) {
-    if (t.seen) continue;
-    t.mass = 0;
-    if (++t.misses < config_.halt_misses || t.hits < config_.confirm_hits) continue;
+    if (t.seen || ++t.misses < config_.halt_misses || t.hits < config_.confirm_hits) continue;
     TrackPoint end;
     end.frame = at.frame, end.time = at.time, end.track_id = t.id;
     end.status = TrackStatus::halted;
-    end.x = t.x, end.y = t.y;
+    end.x = t.x, end.y = t.y, end.existence = t.existence;
     end.vx = t.vx * at.velocity_scale, end.vy = t.vy * at.velocity_scale;
     log.report(end);
   }

@@ -32,9 +32,12 @@ class Identities {
       : config_(config), survival_(survival) {}
 
   /// Labels the members of each peak in `particles` and reports the tracks of this frame. Peaks
-  /// are sorted by falling mass: of two that carry one label the heavier takes it.
-  void assign(std::span<const Peak> peaks, std::span<const std::uint32_t> members,
-              Particles& particles, const StepTime& at, std::size_t modes, TrackLog& log);
+  /// are sorted by falling mass: of two that carry one label the heavier takes it. `faint` are
+  /// those below the least mass of a target: what is left of tracks that have no peak. These
+  /// tracks have missed the frame; they are reported as tentative.
+  void assign(std::span<const Peak> peaks, std::span<const Peak> faint,
+              std::span<const std::uint32_t> members, Particles& particles, const StepTime& at,
+              std::size_t modes, TrackLog& log);
 
   /// Before assign(): a confirmed track begins where a cue says, and particles that carry its id
   /// are its own. A track that is expected within `separation` there is confirmed by its next peak
@@ -66,11 +69,11 @@ class Identities {
     std::uint32_t id = 0;
     std::int64_t detected = 0;  // frame of its first peak
     int hits = 0, misses = 0;
-    bool seen = false;      // at the present frame
+    bool seen = false;      // has a peak in the present frame
     double x = 0, y = 0;    // predicted to the present frame, or that of its peak there [px]
     double vx = 0, vy = 0;  // [px/frame]
-    double mass = 0;        // of its peak in the last frame; 0 if it had none
-    double existence = 0;   // probability at its last peak
+    double mass = 0;        // of its particles in the last frame; 0 if none were found
+    double existence = 0;   // probability
     template <class Self>
     static auto fields(Self& s) {
       return std::tie(s.id, s.detected, s.hits, s.misses, s.seen, s.x, s.y, s.vx, s.vy, s.mass,
@@ -82,8 +85,11 @@ class Identities {
   Track* lost_near(const Peak& peak);
   bool near_seen(const Peak& peak) const;
   void see(Track& track, const Peak& peak, double step) const;
+  void weigh(Track& track, const Peak& peak, double step) const;
   void report(const Track& track, const Peak& peak, std::size_t modes, const StepTime& at,
               TrackLog& log) const;
+  void pass_over(std::span<const Peak> faint, std::span<const std::uint32_t> members,
+                 const Particles& particles, const StepTime& at, std::size_t modes, TrackLog& log);
   void halt_missing(const StepTime& at, TrackLog& log);
 
   IdentityConfig config_;
@@ -91,6 +97,7 @@ class Identities {
   std::vector<Track> tracks_;  // by rising id
   std::vector<std::pair<std::uint32_t, double>> votes_;
   std::vector<std::uint32_t> assigned_;  // by peak: its track, 0 = none
+  std::vector<std::uint32_t> left_;      // tracks of faint peaks
   std::vector<Confirmed> confirmed_now_;
   std::uint32_t next_id_ = 1;
 };

@@ -45,16 +45,10 @@ void MmPf::step(const Scan& scan, TrackLog& log) {
 
 // Boers and Driessen's test on the odds of a target that may have been born at any time.
 void MmPf::detect(const Frame& z, const StepTime& at, TrackLog& log) {
-  constexpr double kShare = 0.1;  // of the odds: the heaviest cluster has more
   detector_.update(z, at, targets_.targets());
-  const double odds = detector_.expected();
-  if (odds >= declaring_odds_) {
-    const std::span<const Cluster> found = detector_.find(kShare * odds);
-    if (!found.empty()) {
-      targets_.detect(found.front(), at, log);
-      detector_.clear();
-      return;
-    }
+  for (const Cluster& cluster : detector_.find(declaring_odds_)) {
+    targets_.detect(cluster, at, log);
+    detector_.remove(cluster);
   }
   detector_.resample(at.frame);
 }

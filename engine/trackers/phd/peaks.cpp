@@ -11,6 +11,15 @@ namespace {
 
 constexpr int kMeanShifts = 3;
 
+/// A cloud that descends from a few particles is narrower than its target is known. More on the
+/// diagonal keeps the matrix positive definite.
+StateCovariance with_floors(StateCovariance c) {
+  constexpr double kPosition = 0.05, kVelocity = 0.02;  // [px], [px/frame]
+  for (double* v : {&c.var_x, &c.var_y}) *v = std::max(*v, kPosition * kPosition);
+  for (double* v : {&c.var_vx, &c.var_vy}) *v = std::max(*v, kVelocity * kVelocity);
+  return c;
+}
+
 }  // namespace
 
 TrackPoint point_of(const Peak& estimate, std::size_t modes, const StepTime& at) {
@@ -19,7 +28,7 @@ TrackPoint point_of(const Peak& estimate, std::size_t modes, const StepTime& at)
   point.x = estimate.x, point.y = estimate.y;
   point.vx = estimate.vx * at.velocity_scale, point.vy = estimate.vy * at.velocity_scale;
   point.intensity = estimate.intensity;
-  point.set_covariance(estimate.with_velocity_scaled(at.velocity_scale));
+  point.set_covariance(with_floors(estimate).with_velocity_scaled(at.velocity_scale));
   for (std::size_t m = 0; m < modes; ++m) {
     point.mode_probability.push_back(estimate.mode_probability[m]);  // P-PHD (35)
   }
@@ -125,6 +134,7 @@ std::span<const Peak> PeakFinder::find(const Particles& particles, const CellRun
   peaks_.clear(), members_.clear(), heap_.clear();
   mass_.assign(runs.mass.begin(), runs.mass.end());
   weight_.assign(particles.weight.begin(), particles.weight.end());
+  members_.reserve(weight_.size()), heap_.reserve(runs.size());  // no peaks need more
   box_.resize(runs.size());
   box_sums(runs, width, height, half_width, mass_, box_);
   const auto threshold = static_cast<float>(config.threshold);

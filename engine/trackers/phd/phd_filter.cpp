@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "glint/engine/trackers/phd/cued_particles.hpp"
 #include "glint/engine/trackers/phd/particle_steps.hpp"
@@ -29,7 +28,7 @@ PhdFilter::PhdFilter(const PhdFilterConfig& config, const Device& device, std::u
       moved_(device),
       log_ratio_(device),
       updated_(device),
-      likelihood_(device),
+      drawn_by_(device),
       ancestors_(device) {}
 
 void PhdFilter::set_appearance(const TargetAppearance& appearance) {
@@ -74,21 +73,23 @@ void PhdFilter::predict(const Frame& z, std::int64_t frame, double step, const P
 // P-PHD (11): survivors keep w_{k-1}, times the probability of survival.
 void PhdFilter::set_survivors(const PixelMask& mask) {
   auto& p = particles_.arrays();
-  const float weight = weight_of_each_ * static_cast<float>(config_.survival);
-  if (mask.empty()) return device_.fill(p.weight, weight);
+  const auto survival = static_cast<float>(config_.survival);
+  const float weight = weight_of_each_ * survival;
+  if (mask.empty() && !odds()) return device_.fill(p.weight, weight);
   device_.fetch(std::span(p.x)), device_.fetch(std::span(p.y));
+  if (odds()) device_.fetch(std::span(p.weight));
   for (std::size_t i = 0; i < p.size(); ++i) {
-    p.weight[i] = mask.covers(p.x[i], p.y[i]) ? 0 : weight;
+    const float alive = odds() ? p.weight[i] * survival : weight;
+    p.weight[i] = mask.covers(p.x[i], p.y[i]) ? 0 : alive;
   }
   device_.send(std::span(p.weight));
 }
 
 void PhdFilter::give_birth(const Frame& z, std::int64_t frame, double step, const PixelMask& mask) {
   const std::size_t survivors = particles_.size();
-  particles_.resize(survivors + static_cast<std::size_t>(config_.birth_particles));
-  const std::size_t born =
-      births_.draw({z, frame, step, cells_, config_.clutter, mask}, particles_.arrays(), survivors);
-  particles_.resize(survivors + born);
+  const BirthScan scan{z, frame, step, cells_, config_.clutter, mask};
+  particles_.resize(survivors + births_.prepare(scan));
+  births_.draw(scan, particles_.arrays(), survivors);
 }
 
 void PhdFilter::add(const Cue& cue, const StepTime& at, double mass, std::uint32_t label) {
@@ -108,10 +109,9 @@ void PhdFilter::add(const Cue& cue, const StepTime& at, double mass, std::uint32
 
 void PhdFilter::update(const Frame& z, std::int64_t frame) {
   auto& p = particles_.arrays();
-  const bool odds = weight_sum_ == WeightSum::odds;
   log_ratio_.resize(p.size());
   updated_.resize(p.size());
-  if (odds || config_.resample_on == ResampleOn::likelihood) likelihood_.resize(p.size());
+  if (odds() || config_.resample_on == ResampleOn::likelihood) drawn_by_.resize(p.size());
   weigh_particles({bank_, appearance_, device_, seed_}, z, frame, p, log_ratio_.values());
   device_.run<CellWeights>({.width = z.width(),
                             .height = z.height(),
@@ -123,47 +123,34 @@ void PhdFilter::update(const Frame& z, std::int64_t frame) {
                             .predicted = p.weight,
                             .log_ratio = log_ratio_.values(),
                             .updated = updated_.values(),
-                            .weighted = likelihood_.values(),
+                            .weighted = drawn_by_.values(),
                             .workspace = &cells_});
   particles_.swap_weight(updated_);
   expected_ = total_mass(cells_.runs);
-  if (odds) convert_to_odds();
+  if (odds()) {
+    // The odds of one bright target would take all particles; the share in its pixels is 1 at most.
+    particles_.swap_weight(drawn_by_);
+    cells_.runs.mass.assign(cells_.cell_sum.begin(), cells_.cell_sum.end());
+  }
   fetched_ = false;
-}
-
-void PhdFilter::convert_to_odds() {
-  constexpr double kMost = 1e8;  // keeps the weights in the range of float
-  const double sum = std::accumulate(cells_.cell_sum.begin(), cells_.cell_sum.end(), 0.0);
-  const auto scale = static_cast<float>(sum > kMost ? kMost / sum : 1);
-  likelihood_.fetch();
-  auto& weight = particles_.arrays().weight;
-  for (std::size_t i = 0; i < weight.size(); ++i) {
-    weight[i] = likelihood_.values()[i] *= scale;
-  }
-  likelihood_.send();
-  device_.send(std::span(weight));
-  for (std::size_t r = 0; r < cells_.runs.size(); ++r) {
-    cells_.runs.mass[r] = scale * cells_.cell_sum[r];
-  }
-  expected_ = std::min(sum, kMost);
 }
 
 void PhdFilter::remove(std::span<const std::uint32_t> members) {
   auto& weight = particles().weight;
-  likelihood_.fetch();
+  drawn_by_.fetch();
   for (const std::uint32_t i : members) {
-    expected_ -= weight[i];
+    expected_ -= odds() ? drawn_by_.values()[i] : weight[i];
     weight[i] = 0;
-    if (!likelihood_.empty()) likelihood_.values()[i] = 0;
+    if (!drawn_by_.empty()) drawn_by_.values()[i] = 0;
   }
   device_.send(std::span(weight));
-  likelihood_.send();
+  drawn_by_.send();
   expected_ = std::max(0.0, expected_);
 }
 
 void PhdFilter::resample(std::int64_t frame) {
   auto& p = particles_.arrays();
-  const double targets = weight_sum_ == WeightSum::odds ? 1 : std::max(1.0, std::ceil(expected_));
+  const double targets = std::max(1.0, std::ceil(expected_));
   const double wanted =
       std::min({targets * config_.particles_per_target, static_cast<double>(config_.particles_max),
                 static_cast<double>(p.size())});
@@ -173,17 +160,30 @@ void PhdFilter::resample(std::int64_t frame) {
   if (kept > 0) {
     const auto moves = moved_particles(p, 0, moved_.arrays(), 0);
     device_.run<Resample>(
-        {.weights = likelihood_.empty() ? std::span<const float>(p.weight) : likelihood_.values(),
+        {.weights = drawn_by_.empty() ? std::span<const float>(p.weight) : drawn_by_.values(),
          .ancestors = ancestors_.values(),
          .method = config_.resampling,
          .key = random_key(seed_, index_of(frame), Purpose::resample),
          .moved = moves,
          .workspace = &draws_});
-    weight_of_each_ = static_cast<float>(expected_ / static_cast<double>(kept));
-    device_.fill(moved_.arrays().weight, weight_of_each_);
+    weigh_anew(kept);
   }
   std::swap(particles_, moved_);
   fetched_ = false;
+}
+
+/// Of `kept` particles: all alike; odds w over the number of times that each is drawn on average.
+void PhdFilter::weigh_anew(std::size_t kept) {
+  const double each = expected_ / static_cast<double>(kept);
+  weight_of_each_ = static_cast<float>(each);
+  if (!odds()) return device_.fill(moved_.arrays().weight, weight_of_each_);
+  ancestors_.fetch(), drawn_by_.fetch();
+  const auto& weight = particles().weight;
+  for (std::size_t i = 0; i < kept; ++i) {
+    const std::uint32_t from = ancestors_.values()[i];
+    moved_.arrays().weight[i] = static_cast<float>(each * weight[from] / drawn_by_.values()[from]);
+  }
+  device_.send(std::span(moved_.arrays().weight));
 }
 
 }  // namespace glint

@@ -37,10 +37,10 @@ struct PhdFilterConfig : AppearanceConfig, MotionConfig, BirthConfig {
 };
 void describe(FieldList& f, PhdFilterConfig& c);
 
-/// What the particles' weights sum to after the update.
+/// What the weights of a target's particles sum to after the update.
 enum class WeightSum {
-  expected_targets,  ///< number of targets; each pixel is shared among its particles: P-PHD (14)
-  odds               ///< posterior odds of one target against none; the weights are w l
+  expected_targets,  ///< 1 at most; each pixel is shared among its particles: P-PHD (14)
+  odds               ///< its posterior odds against none, w l; particles are redrawn by the other
 };
 
 /// The particle PHD filter of P-PHD section 3.1 over all motion models of section 4: it looks for
@@ -70,7 +70,7 @@ class PhdFilter {
   /// configured.
   void resample(std::int64_t frame);
 
-  /// Sum of the weights after the update: expected number of targets, P-PHD (19), or odds.
+  /// Expected number of targets after the update, P-PHD (19).
   double expected() const { return expected_; }
   const TargetAppearance& appearance() const { return appearance_; }
   /// Fetched from the device. Only labels may be changed; call send_labels() after that.
@@ -92,7 +92,8 @@ class PhdFilter {
  private:
   void give_birth(const Frame& z, std::int64_t frame, double step, const PixelMask& mask);
   void set_survivors(const PixelMask& mask);
-  void convert_to_odds();
+  void weigh_anew(std::size_t kept);
+  bool odds() const { return weight_sum_ == WeightSum::odds; }
 
   PhdFilterConfig config_;
   MotionBank bank_;
@@ -103,9 +104,9 @@ class PhdFilter {
   Births births_;
   ResidentParticles particles_, moved_;
   bool fetched_ = false;      ///< whether particles_ are on the host as they are on the device
-  float weight_of_each_ = 0;  ///< after resampling
+  float weight_of_each_ = 0;  ///< after resampling; odds have their own
   ResidentArray<float> log_ratio_, updated_;
-  ResidentArray<float> likelihood_;  ///< w_{k|k-1} l, if particles are redrawn by it; else empty
+  ResidentArray<float> drawn_by_;  ///< what particles are redrawn by, if not by weight; else empty
   CellWorkspace cells_;
   ResampleWorkspace draws_;
   ResidentArray<std::uint32_t> ancestors_;

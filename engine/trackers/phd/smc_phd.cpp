@@ -2,7 +2,6 @@
 #include "glint/engine/trackers/phd/smc_phd.hpp"
 
 #include <span>
-#include <vector>
 
 #include "glint/engine/trackers/phd/cued_particles.hpp"
 #include "glint/engine/trackers/phd/kmeans.hpp"
@@ -50,25 +49,32 @@ void SmcPhd::step(const Scan& scan, TrackLog& log) {
   filter_.resample(scan.frame);
 }
 
-void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
-  const int half_width = appearance_.spread().half_width;
+/// Fills found_ and faint_, and returns their members.
+std::span<const std::uint32_t> SmcPhd::find_peaks(const Scan& scan) {
+  constexpr double kFaint = 0.004;  // of the least mass of a target
   Particles& particles = filter_.particles();
-  std::span<const Peak> found;
-  std::span<const std::uint32_t> members;
-  std::vector<Peak> classes;
+  faint_.clear();
   if (config_.states == StateExtraction::kmeans) {
     const auto frame = static_cast<std::uint64_t>(scan.frame);
-    classes = kmeans_states(particles, random_key(seed_, frame, Purpose::kmeans), kmeans_members_);
-    found = classes, members = kmeans_members_;
-  } else {
-    const double radius = appearance_.cluster_radius(config_.cluster_radius);
-    found = peaks_.find(particles, filter_.runs(), scan.whitened.width(), scan.whitened.height(),
-                        half_width, {config_.existence, radius});
-    members = peaks_.members();
+    found_ = kmeans_states(particles, random_key(seed_, frame, Purpose::kmeans), kmeans_members_);
+    return kmeans_members_;
   }
-  identities_.assign(found, members, particles, at, mode_names_.size(), log);
-  noise_.update(found, members, particles);
-  trace_back(scan, at, found, members, log);
+  found_.clear();
+  for (const Peak& peak : peaks_.find(
+           particles, filter_.runs(), scan.whitened.width(), scan.whitened.height(),
+           appearance_.spread().half_width,
+           {kFaint * config_.existence, appearance_.cluster_radius(config_.cluster_radius)})) {
+    (peak.mass >= config_.existence ? found_ : faint_).push_back(peak);
+  }
+  return peaks_.members();
+}
+
+void SmcPhd::report(const Scan& scan, const StepTime& at, TrackLog& log) {
+  const std::span<const std::uint32_t> members = find_peaks(scan);
+  Particles& particles = filter_.particles();
+  identities_.assign(found_, faint_, members, particles, at, mode_names_.size(), log);
+  noise_.update(found_, members, particles);
+  trace_back(scan, at, found_, members, log);
   filter_.send_labels();
 }
 

@@ -22,6 +22,7 @@ enum class StateExtraction { peaks, kmeans };
 
 /// Settings of `smc-phd`.
 struct SmcPhdConfig : PhdFilterConfig {
+  SmcPhdConfig() { birth_growth = 8; }
   // How particles become targets.
   StateExtraction states = StateExtraction::peaks;
   double existence = 0.5;       ///< least mass of a target
@@ -65,6 +66,7 @@ class SmcPhd : public TrackerOf<SmcPhd> {
   }
 
  private:
+  std::span<const std::uint32_t> find_peaks(const Scan& scan);
   void report(const Scan& scan, const StepTime& at, TrackLog& log);
   void trace_back(const Scan& scan, const StepTime& at, std::span<const Peak> found,
                   std::span<const std::uint32_t> members, TrackLog& log);
@@ -76,6 +78,7 @@ class SmcPhd : public TrackerOf<SmcPhd> {
   PhdFilter filter_;
   PixelMask no_mask_;
   PeakFinder peaks_;
+  std::vector<Peak> found_, faint_;  // in the present frame: targets, and what is less than one
   std::vector<std::uint32_t> kmeans_members_;
   Identities identities_;
   AdaptiveNoise noise_;

@@ -80,7 +80,7 @@ TEST(Consistency, ATruthCountsWithinReachAndTheNearestDoes) {
   EXPECT_NEAR(consistency(two, std::vector{p}, 4).position_nees.sum, 0.99 * 0.99, 1e-9);
 }
 
-TEST(Consistency, TentativePointsCountForTheirExistenceAloneAndHaltedOnesForNothing) {
+TEST(Consistency, TentativeAndHaltedPointsCountForTheirExistenceAlone) {
   TrackPoint p = off(1, 0);
   p.var_x = p.var_y = 1, p.cov_xy = 0, p.existence = 0.5;
   p.status = TrackStatus::tentative;
@@ -88,7 +88,7 @@ TEST(Consistency, TentativePointsCountForTheirExistenceAloneAndHaltedOnesForNoth
   EXPECT_EQ(of({p}).existence_error.points, 1);
   p.status = TrackStatus::halted;
   EXPECT_EQ(of({p}).position_nees.points, 0);
-  EXPECT_EQ(of({p}).existence_error.points, 0);
+  EXPECT_EQ(of({p}).existence_error.points, 1);
 }
 
 TEST(Consistency, BrierStandsBesideThatOfTheBaseRate) {

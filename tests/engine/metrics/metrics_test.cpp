@@ -189,6 +189,11 @@ TEST(Evaluation, ScoresTentativePointsOnDemandAndHaltedOnesNever) {
   EvaluationOptions all;
   all.include_tentative = true;
   EXPECT_DOUBLE_EQ(evaluate(two_truths(), tracks, all).detected_points, 1.0 / 16);
+  TrackPoint doubted = tracks[0];
+  doubted.existence = 0.49;
+  EXPECT_DOUBLE_EQ(evaluate(two_truths(), std::vector{doubted}, all).detected_points, 0);
+  doubted.existence = 0.5;
+  EXPECT_DOUBLE_EQ(evaluate(two_truths(), std::vector{doubted}, all).detected_points, 1.0 / 16);
 }
 
 TEST(Evaluation, CountsATrackOnlyIfHalfOfItIsNear) {

@@ -42,9 +42,10 @@ class Nursery {
   Particles draw(const Frame& z, double step = 1) {
     constexpr std::size_t kBefore = 3;
     Particles p;
-    p.resize(kBefore + kCount);
-    const std::size_t born = births_.draw({z, ++frame_, step, previous, clutter, mask}, p, kBefore);
-    EXPECT_TRUE(born == 0 || born == kCount);
+    const BirthScan scan{z, ++frame_, step, previous, clutter, mask};
+    const std::size_t born = births_.prepare(scan);
+    p.resize(kBefore + born);
+    births_.draw(scan, p, kBefore);
     Particles out;
     out.resize(born);
     std::apply(

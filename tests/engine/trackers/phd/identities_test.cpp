@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "engine/trackers/phd/few_particles.hpp"
@@ -23,8 +25,9 @@ class Tracks {
  public:
   explicit Tracks(const IdentityConfig& config = {}) : identities_(config, 1) {}
   /// The next frame, or `step` frames on; returns the labels of the peaks' first particles.
+  /// Of peaks in order of falling mass those from `targets` on are faint.
   std::vector<std::uint32_t> see(const std::vector<TestPeak>& list, int step = 1,
-                                 double velocity_scale = 1) {
+                                 double velocity_scale = 1, std::size_t targets = 1000) {
     std::vector<TestParticle> particles;
     std::vector<Peak> peaks;
     for (const TestPeak& t : list) {
@@ -40,8 +43,9 @@ class Tracks {
     }
     Particles p = particles_of(particles);
     frame_ += step;
+    targets = std::min(targets, peaks.size());
     identities_.assign(
-        peaks, all_members(p), p,
+        std::span(peaks).first(targets), std::span(peaks).subspan(targets), all_members(p), p,
         {frame_, static_cast<double>(frame_), static_cast<double>(step), velocity_scale}, 1, log);
     std::vector<std::uint32_t> labels;
     for (const Peak& peak : peaks) {
@@ -162,6 +166,23 @@ TEST(Identities, ExistenceRemembersAllFramesWithAPeak) {
   tracks.see({});
   tracks.see({later});  // what went before the miss is not known any more
   EXPECT_NEAR(tracks.log.at(4)[0].existence, 0.75, 1e-6);
+}
+
+// What is left of a track where it has no peak: a miss, in which it is tentative.
+TEST(Identities, AFaintPeakSaysHowLikelyAMissedTrackIsStill) {
+  Tracks tracks({.confirm_hits = 1});
+  tracks.see({{10, 0, {{0, 0.75F}}}});
+  const TestPeak left{10, 0, {{1, 0.2F}}}, other{40, 0, {{0, 0.3F}}};
+  tracks.see({left, other}, 1, 1, 0);  // odds 1/4 from 3/4: a ratio of 1/3 on odds of 3
+  ASSERT_EQ(tracks.log.at(1).size(), 1U);
+  EXPECT_NEAR(tracks.log.at(1)[0].existence, 0.5, 1e-6);
+  EXPECT_EQ(tracks.log.at(1)[0].status, TrackStatus::tentative);
+  tracks.see({});
+  tracks.see({});
+  const auto end = tracks.log.at(3);  // the third miss
+  ASSERT_EQ(end.size(), 1U);
+  EXPECT_EQ(end[0].status, TrackStatus::halted);
+  EXPECT_EQ(end[0].existence, 0);
 }
 
 TEST(Identities, TellWhichTracksAFrameConfirmedAndWhereTheyBegan) {

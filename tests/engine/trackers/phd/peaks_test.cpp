@@ -157,6 +157,21 @@ TEST(DescribeCluster, GivesTheWeightedMoments) {
   EXPECT_NEAR(peak.mode_probability[2], 0.25, 1e-6);
 }
 
+// Off the means by (-1, -2, -3, 5) and (3, 6, 9, -15).
+TEST(DescribeCluster, GivesTheCovarianceOfVelocity) {
+  Particles p = two_particles();
+  p.x = {10, 14}, p.y = {20, 28}, p.vx = {-3, 9}, p.vy = {5, -15};
+  const std::vector<std::uint32_t> members{0, 1};
+  const Peak peak = describe_cluster(p, members, p.weight);
+  EXPECT_NEAR(peak.cov_x_vx, 9, 1e-5);    // .75 * 3 + .25 * 27
+  EXPECT_NEAR(peak.cov_x_vy, -15, 1e-5);  // .75 * -5 + .25 * -45
+  EXPECT_NEAR(peak.cov_y_vx, 18, 1e-5);
+  EXPECT_NEAR(peak.cov_y_vy, -30, 1e-5);
+  EXPECT_NEAR(peak.var_vx, 27, 1e-5);
+  EXPECT_NEAR(peak.cov_vx_vy, -45, 1e-5);
+  EXPECT_NEAR(peak.var_vy, 75, 1e-5);
+}
+
 TEST(DescribeCluster, GoesByTheMembersAlone) {
   const Particles p = two_particles();
   const std::vector<std::uint32_t> members{1};

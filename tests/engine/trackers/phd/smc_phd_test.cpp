@@ -250,6 +250,7 @@ TEST(SmcPhdImproved, TracesEachTargetFromItsOwnPeak) {
       EXPECT_LT(nearest, 4) << p.frame;
       for (const TrackPoint& other : log.revised()) {
         if (other.frame != p.frame || other.track_id == p.track_id) continue;
+        if (other.status != TrackStatus::confirmed) continue;
         EXPECT_GT(std::hypot(p.x - other.x, p.y - other.y), 4) << p.frame;
       }
     }

@@ -162,6 +162,26 @@ TEST(TwoFrameBirths, AreNotInTheMask) {
   EXPECT_GT(alive, kCount / 10);
 }
 
+std::size_t births_in(int width, int height, int growth) {
+  BirthConfig config = config_of(BirthProposal::two_frame);
+  config.birth_growth = growth;
+  Births births(config, motion_of(), Device::serial(), 1);
+  births.set_appearance(ready(dim()));
+  const CellWorkspace none;
+  const PixelMask mask;
+  const Frame z{Image<float>(width, height)};
+  births.prepare({z, 0, 1, none, 1, mask});
+  return births.prepare({z, 1, 1, none, 1, mask});
+}
+
+// Of pixels with a score of 1, birth_particles for every 256x256.
+TEST(TwoFrameBirths, AreMoreInLargeFramesAsFarAsTheyMayGrow) {
+  EXPECT_EQ(births_in(512, 100, 8), kCount);
+  EXPECT_EQ(births_in(512, 300, 8), 2 * kCount);
+  EXPECT_EQ(births_in(512, 300, 1), kCount);
+  EXPECT_EQ(births_in(512, 512, 3), 3 * kCount);
+}
+
 TEST(TwoFrameBirths, ForgetTheFrameBeforeWithAnotherAppearance) {
   Births births(config_of(BirthProposal::two_frame), motion_of(), Device::serial(), 1);
   births.set_appearance(ready(dim()));
@@ -170,10 +190,10 @@ TEST(TwoFrameBirths, ForgetTheFrameBeforeWithAnotherAppearance) {
   const Frame z = empty_frame();
   Particles p;
   p.resize(kCount);
-  EXPECT_EQ(births.draw({z, 0, 1, none, 1, mask}, p, 0), 0U);
+  EXPECT_EQ(births.prepare({z, 0, 1, none, 1, mask}), 0U);
   births.set_appearance(ready(dim()));
-  EXPECT_EQ(births.draw({z, 1, 1, none, 1, mask}, p, 0), 0U);
-  EXPECT_EQ(births.draw({z, 2, 1, none, 1, mask}, p, 0), kCount);
+  EXPECT_EQ(births.prepare({z, 1, 1, none, 1, mask}), 0U);
+  EXPECT_EQ(births.prepare({z, 2, 1, none, 1, mask}), kCount);
 }
 
 }  // namespace
