@@ -18,11 +18,31 @@ double candidate_intensity(const HPmhtConfig& config) {
   return PointSpread::of(config.psf_sigma).intensity_of_snr(config.snr);
 }
 
+/// Equally spaced in decibels about that of `snr`.
+std::vector<double> likely_intensities(const HPmhtConfig& config) {
+  std::vector<double> intensities;
+  for (const double off : {-6, -2, 2, 6}) {
+    intensities.push_back(PointSpread::of(config.psf_sigma).intensity_of_snr(config.snr + off));
+  }
+  return intensities;
+}
+
+/// Existence of a candidate: births are rare, and there are many pairs of pixels to choose from. A
+/// maximum stands for some pixels.
+double candidate_existence(const FramePairStart& pair, FrameView frame, double reach) {
+  constexpr double kBirths = 0.05, kPixels = 4;
+  const double places =
+      static_cast<double>(frame.width) * frame.height * (2 * reach + 1) * (2 * reach + 1);
+  const double odds = kBirths / places * kPixels * kPixels * std::exp(std::min(pair.score, 50.0));
+  return odds / (1 + odds);
+}
+
 }  // namespace
 
 HPmht::HPmht(const HPmhtConfig& config, const Device& device, std::uint64_t /*seed*/)
     : config_(valid(config)),
       device_(device),
+      intensities_(likely_intensities(config)),
       batch_(config, device),
       pairs_(PointSpread::of(config.psf_sigma), candidate_intensity(config), config.candidate_ratio,
              device) {
@@ -57,6 +77,7 @@ void HPmht::step(const Scan& scan, TrackLog& log) {
   const Frame& frame = config_.intensity == CellIntensity::rpim ? scan.raw : scan.whitened;
   if (frame.width() == 0) return;
   advance(scan, frame);
+  weigh_existence();
   batch_.run(scans_, targets_);
   end_duplicates();
   update_lives();
@@ -118,7 +139,10 @@ BatchTarget HPmht::target_at(const Start& at, std::size_t first, double proporti
   target.prior_y.covariance = target.prior_x.covariance;
   target.origin_x = target.prior_x.mean, target.origin_y = target.prior_y.mean;
   const double extent = extent_of(config_);
-  target.states.fill({at.x, at.y, at.vx, at.vy, extent, extent, proportion});
+  BatchState state{at.x, at.y, at.vx, at.vy, extent, extent, proportion};
+  state.covariance_x = target.prior_x.covariance, state.covariance_y = target.prior_y.covariance;
+  state.existence = 0.9;
+  target.states.fill(state);
   return target;
 }
 
@@ -166,6 +190,11 @@ void HPmht::add_candidates(const Scan& scan) {
     BatchState& now = target.states[scans_.size() - 1];
     before.x = pair.before_x, before.y = pair.before_y;
     now.x = pair.x, now.y = pair.y;
+    before.existence = now.existence =
+        candidate_existence(pair, scans_.back().frame, config_.speed_max * step);
+    for (BatchState* s : {&before, &now}) {
+      s->covariance_x = target.prior_x.covariance, s->covariance_y = target.prior_y.covariance;
+    }
     lives_.emplace_back();
     --left;
   }

@@ -67,6 +67,7 @@ class HPmht : public TrackerOf<HPmht> {
   /// A target at `at` one step before scan `first`.
   BatchTarget target_at(const Start& at, std::size_t first, double proportion) const;
   void take_cues(const Scan& scan);
+  void weigh_existence();
   void add_starts(TrackLog& log);
   void add_candidates(const Scan& scan);
   bool crowded(double x, double y) const;
@@ -83,6 +84,7 @@ class HPmht : public TrackerOf<HPmht> {
 
   HPmhtConfig config_;
   Device device_;
+  std::vector<double> intensities_;  // that existence reckons with [noise sigmas]
   HPmhtBatch batch_;
   std::vector<WindowScan> window_;  // oldest first
   std::vector<BatchScan> scans_;    // the same scans as the batch sees them

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "glint/engine/trackers/h_pmht/hpmht_batch.hpp"
 
 namespace glint {
@@ -41,11 +43,19 @@ void describe(FieldList& f, HPmhtConfig& c) {
   f("candidates_max", c.candidates_max, 0, 100000, "", "new candidates a frame");
   f("separation", c.separation, 0, 1000, "px", "no candidate this near to a living track");
   f("duplicate", c.duplicate, 0, 1000, "px", "of two tracks this close the younger ends");
-  f("confirm_count", c.confirm_count, 0, 1e9, "",
-    "mean intensity that a confirmed track explains [sigma or grey levels]");
+  f.automatic("confirm_count", c.confirm_count, 0, 1e9, "",
+              "mean intensity that a confirmed track explains [sigma or grey levels]; auto is 3.3, "
+              "and up to 4 for an snr below 12");
   f("confirm_frames", c.confirm_frames, 1, static_cast<int>(kMaxBatch), "scans", "of that mean");
   f("halt_count", c.halt_count, 0, 1e9, "", "mean intensity below which a track ends");
   f("halt_frames", c.halt_frames, 1, static_cast<int>(kMaxBatch), "scans", "of that mean");
+}
+
+double least_confirm_count(const HPmhtConfig& config) {
+  constexpr double kLeast = 3.3, kMost = 4, kBelow = 12, kPerDecibel = 0.117;
+  if (config.confirm_count > 0) return config.confirm_count;
+  if (config.intensity == CellIntensity::rpim) return kLeast;
+  return std::clamp(kLeast + kPerDecibel * (kBelow - config.snr), kLeast, kMost);
 }
 
 }  // namespace glint

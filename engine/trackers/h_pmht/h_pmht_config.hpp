@@ -42,11 +42,15 @@ struct HPmhtConfig {
   int candidates_max = 200;  ///< a frame
   double separation = 4;     ///< [px]
   double duplicate = 3;      ///< [px]
-  double confirm_count = 3.3;
+  double confirm_count = 0;  ///< 0 = auto, see least_confirm_count()
   int confirm_frames = 5;
   double halt_count = 1.5;
   int halt_frames = 3;
 };
 void describe(FieldList& f, HPmhtConfig& c);
+/// Mean intensity of a confirmed track. By itself 3.3; of whitened pixels .117 more for each dB
+/// that `snr` is below 12, at most 4: the dimmer candidates may be, the more noise is among them,
+/// and the more they explain by chance.
+double least_confirm_count(const HPmhtConfig& config);
 
 }  // namespace glint

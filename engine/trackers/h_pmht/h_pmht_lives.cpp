@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/engine/filters/bernoulli.hpp"
 #include "glint/engine/trackers/h_pmht/h_pmht.hpp"
+#include "glint/engine/trackers/h_pmht/point_evidence.hpp"
 
 namespace glint {
 namespace {
@@ -66,11 +68,24 @@ void HPmht::update_lives() {
         mean_count(target, config_.halt_frames) < config_.halt_count) {
       life.over = true;
     } else if (life.id == 0 && age >= config_.confirm_frames &&
-               mean_count(target, config_.confirm_frames) >= config_.confirm_count) {
+               mean_count(target, config_.confirm_frames) >= least_confirm_count(config_)) {
       life.id = next_id_++;
     }
   }
 }
+
+namespace {
+
+StateCovariance covariance_of(const BatchState& s) {
+  StateCovariance c = StateCovariance::zero();  // the axes are smoothed each by itself
+  c.var_x = s.covariance_x(0, 0), c.cov_x_vx = s.covariance_x(0, 1);
+  c.var_vx = s.covariance_x(1, 1);
+  c.var_y = s.covariance_y(0, 0), c.cov_y_vy = s.covariance_y(0, 1);
+  c.var_vy = s.covariance_y(1, 1);
+  return c;
+}
+
+}  // namespace
 
 TrackPoint HPmht::point_of(std::size_t k, std::size_t t) const {
   const BatchState& s = targets_[k].states[t];
@@ -80,8 +95,34 @@ TrackPoint HPmht::point_of(std::size_t k, std::size_t t) const {
   point.status = TrackStatus::confirmed;
   point.x = s.x, point.y = s.y;
   point.vx = s.vx * window_[t].rate, point.vy = s.vy * window_[t].rate;
-  point.intensity = s.count;
+  point.intensity = s.count, point.existence = s.existence;
+  // Counts stand for shots, so that their unit counts: only that of the noise says how many.
+  if (config_.intensity == CellIntensity::whitened) {
+    point.set_covariance(covariance_of(s).with_velocity_scaled(window_[t].rate));
+  }
   return point;
+}
+
+// By the pixels around where the scans before say that it is; a Bernoulli filter's update. Frames
+// as delivered have no known noise.
+void HPmht::weigh_existence() {
+  constexpr double kSurvival = 0.99;
+  if (config_.intensity == CellIntensity::rpim) return;
+  const std::size_t now = scans_.size() - 1;
+  const double step = scans_[now].step;
+  const double survival = std::pow(kSurvival, step);
+  device_.workers().for_tiles(targets_.size(), [&](std::size_t k) {
+    BatchTarget& target = targets_[k];
+    BatchState& s = target.states[now];
+    const Eigen::RowVector2d ahead(1, step);
+    const double moved = constant_velocity_noise(step)(0, 0) * target.noise;
+    const ExpectedPlace place{s.x, s.y, ahead * s.covariance_x * ahead.transpose() + moved,
+                              ahead * s.covariance_y * ahead.transpose() + moved};
+    s.existence = bernoulli_update(
+        s.existence, survival,
+        mean_likelihood_ratio(window_[now].frame.view(), PointSpread::of(config_.psf_sigma),
+                              intensities_, place));
+  });
 }
 
 void HPmht::report(TrackLog& log) {

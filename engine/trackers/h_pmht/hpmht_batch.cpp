@@ -129,6 +129,8 @@ double HPmhtBatch::maximise(std::span<const BatchScan> scans, std::size_t k, Bat
       s.var_y = extent(measured.yy, measured.y, s.y, y(0));
     }
     s.x = x(0), s.vx = x(1), s.y = y(0), s.vy = y(1);
+    s.covariance_x = beliefs_x_[t - target.first + 1].covariance;
+    s.covariance_y = beliefs_y_[t - target.first + 1].covariance;
     if (counts_[t] > 0) {  // P-HPMHT (14)
       s.proportion = std::max(s.count / counts_[t], kLeastProportion);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <tuple>
@@ -38,11 +39,15 @@ struct BatchState {
   double proportion = 0;          ///< pi, its share of the scan's intensity
   double count = 0;               ///< n, the intensity that it explains
   double mean_x = 0, mean_y = 0;  ///< where that lies: synthetic measurement, P-HPMHT (11) [px]
+  /// Of position and velocity along each axis, after smoothing.
+  Eigen::Matrix2d covariance_x = Eigen::Matrix2d::Constant(NAN);
+  Eigen::Matrix2d covariance_y = Eigen::Matrix2d::Constant(NAN);
+  double existence = NAN;  ///< probability, of what is known up to this scan
 
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.x, s.y, s.vx, s.vy, s.var_x, s.var_y, s.proportion, s.count, s.mean_x,
-                    s.mean_y);
+                    s.mean_y, s.covariance_x, s.covariance_y, s.existence);
   }
 };
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "glint/engine/trackers/phd/bernoulli.hpp"
+#include "glint/engine/filters/bernoulli.hpp"
 
 namespace glint {
 namespace {

@@ -26,6 +26,22 @@ void trim(WindowPath& path) {
   }
 }
 
+constexpr int kAround = 3;  // [px] where a target that looks as if in a cell may be
+
+void weigh_around(ImageView<const float> score, WindowPath::Cell& cell) {
+  double sum = 0, xx = 0, xy = 0, yy = 0;
+  for (int j = -kAround; j <= kAround; ++j) {
+    for (int i = -kAround; i <= kAround; ++i) {
+      if (!score.contains(cell.x + i, cell.y + j)) continue;
+      const double ratio = std::exp(double{score(cell.x + i, cell.y + j)} - cell.score);
+      sum += ratio, xx += ratio * i * i, xy += ratio * i * j, yy += ratio * j * j;
+    }
+  }
+  constexpr double kPixel = 1.0 / 12;  // variance of a place within its pixel [px^2]
+  cell.weight = sum;
+  cell.var_x = xx / sum + kPixel, cell.cov_xy = xy / sum, cell.var_y = yy / sum + kPixel;
+}
+
 }  // namespace
 
 PathWindow::PathWindow(int stages, double separation, const Device& device)
@@ -101,7 +117,7 @@ WindowPath PathWindow::trace(int x, int y) {
   for (std::size_t k = stages_.size(); k-- > 0;) {
     Stage& s = stage(k);
     fetch_row(s, y);
-    path.cells[k] = {x, y, s.score.view()(x, y)};
+    path.cells[k] = {.x = x, .y = y, .score = s.score.view()(x, y)};
     path.total += path.cells[k].score;
     if (k == 0) break;
     const int dx = s.dx.view()(x, y), dy = s.dy.view()(x, y);
@@ -120,6 +136,23 @@ bool PathWindow::crowded(const WindowPath& path) const {
   });
 }
 
+void PathWindow::look_around(WindowPath& path) {
+  path.log_odds = -std::log(static_cast<double>(width()) * height());
+  for (std::size_t k = path.first; k < path.last; ++k) {
+    WindowPath::Cell& cell = path.cells[k];
+    Stage& s = stage(k);
+    for (int j = cell.y - kAround; j <= cell.y + kAround; ++j) {
+      if (j >= 0 && j < height()) fetch_row(s, j);
+    }
+    weigh_around(s.score.view(), cell);
+    path.log_odds += cell.score + std::log(cell.weight);
+    // The first move is free within the reach, later ones within the tolerance about the last.
+    if (k == path.first) continue;
+    const int free = k == path.first + 1 ? s.moves.reach : s.moves.tolerance;
+    path.log_odds -= 2 * std::log(2 * free + 1);
+  }
+}
+
 std::span<const WindowPath> PathWindow::find(float threshold) {
   run();
   FindPoints::Args maxima;
@@ -136,7 +169,10 @@ std::span<const WindowPath> PathWindow::find(float threshold) {
         trace(static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)));
     if (!crowded(path)) paths_.push_back(path);
   }
-  for (WindowPath& path : paths_) trim(path);
+  for (WindowPath& path : paths_) {
+    trim(path);
+    look_around(path);
+  }
   return paths_;
 }
 

@@ -21,9 +21,15 @@ struct WindowPath {
   struct Cell {
     int x, y;
     float score;
+    /// Sum of the likelihood ratios around the cell, its own included, over its own.
+    double weight = 1;
+    double var_x = 0, cov_xy = 0, var_y = 0;  ///< by these ratios, about the cell's centre [px^2]
   };
   std::size_t first = 0, last = 0;  ///< stages [first, last) that it holds after trimming
   double total = 0;                 ///< of all stages
+  /// Logarithm of the odds of a target on this path, or one near it, against none, if one is
+  /// expected in the frame and all moves are alike.
+  double log_odds = 0;
   std::array<Cell, kMaxPathStages> cells{};
 };
 
@@ -78,10 +84,13 @@ class PathWindow {
   };
   Stage& stage(std::size_t k) { return stages_[(oldest_ + k) % stages_.size()]; }
   void make_maps(int width, int height);
+  int width() const { return total_[0].width(); }
+  int height() const { return total_[0].height(); }
   void run();
   void fetch_row(Stage& stage, int y) const;
   WindowPath trace(int x, int y);
   bool crowded(const WindowPath& path) const;
+  void look_around(WindowPath& path);
 
   double separation_;
   Device device_;

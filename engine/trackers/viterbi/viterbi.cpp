@@ -121,6 +121,24 @@ Viterbi::Track& Viterbi::owner(const WindowPath& path) {
   return *nearest;
 }
 
+/// Of the cell at stage k, with the velocity from stage a to stage b: errors of cells at different
+/// stages have nothing to do with each other.
+static StateCovariance covariance_of(const WindowPath& path, std::size_t a, std::size_t k,
+                                     std::size_t b, double seconds) {
+  const WindowPath::Cell& cell = path.cells[k];
+  StateCovariance c;
+  c.var_x = cell.var_x, c.cov_xy = cell.cov_xy, c.var_y = cell.var_y;
+  if (!(seconds > 0)) return c;
+  const WindowPath::Cell &from = path.cells[a], &to = path.cells[b];
+  const double share = ((k == b ? 1 : 0) - (k == a ? 1 : 0)) / seconds;  // of the velocity's error
+  c.cov_x_vx = share * cell.var_x, c.cov_y_vy = share * cell.var_y;
+  c.cov_x_vy = c.cov_y_vx = share * cell.cov_xy;
+  const double square = seconds * seconds;
+  c.var_vx = (from.var_x + to.var_x) / square, c.var_vy = (from.var_y + to.var_y) / square;
+  c.cov_vx_vy = (from.cov_xy + to.cov_xy) / square;
+  return c;
+}
+
 TrackPoint Viterbi::point_of(const WindowPath& path, std::size_t k, std::int64_t id) const {
   TrackPoint point;
   point.frame = times_[k].frame, point.time = times_[k].time;
@@ -135,6 +153,8 @@ TrackPoint Viterbi::point_of(const WindowPath& path, std::size_t k, std::int64_t
     point.vx = (path.cells[b].x - path.cells[a].x) / seconds;
     point.vy = (path.cells[b].y - path.cells[a].y) / seconds;
   }
+  point.existence = 1 / (1 + std::exp(-path.log_odds));
+  point.set_covariance(covariance_of(path, a, k, b, seconds));
   return point;
 }
 
@@ -171,6 +191,7 @@ void Viterbi::halt(Track& track, TrackLog& log) const {
   TrackPoint point = last;
   point.frame = times_.back().frame, point.time = times_.back().time;
   point.status = TrackStatus::halted;
+  point.existence = 0;  // no path shows it any more
   log.report(point);
   log.drop(track.id, last.frame + 1);
   track.halted = true;

@@ -121,6 +121,53 @@ TEST(HPmhtLives, ACandidatesPriorLiesOnTheLineOfItsTwoPoints) {
   }
 }
 
+TEST(HPmhtLives, ATrackStatesHowSureItIs) {
+  Film film(noiseless(), {target(4, 12, {10, 12, 1, 0.5})});
+  film.until(20);
+  for (const TrackPoint& p : film.log.online()) {
+    if (p.frame < 12) {
+      EXPECT_GT(p.existence, 0.99) << p.frame;
+      EXPECT_EQ(p.cov_xy, 0);  // the axes have nothing to do with each other
+      EXPECT_GT(p.var_x, 0);
+      EXPECT_GT(p.var_vx, 0);
+      EXPECT_GT(p.var_x * p.var_vx, p.cov_x_vx * p.cov_x_vx);
+    }
+    if (p.status == TrackStatus::halted) {
+      EXPECT_LT(p.existence, 0.1);
+    }
+  }
+}
+
+// The dimmer candidates may be, the more noise is among them.
+TEST(HPmhtLives, DimmerCandidatesMustExplainMore) {
+  HPmhtConfig config;
+  EXPECT_EQ(least_confirm_count(config), 3.3);
+  config.snr = 9;
+  EXPECT_NEAR(least_confirm_count(config), 3.651, 1e-9);
+  config.snr = 0;
+  EXPECT_EQ(least_confirm_count(config), 4);
+  config.intensity = CellIntensity::rpim;
+  EXPECT_EQ(least_confirm_count(config), 3.3);
+  config.confirm_count = 2;
+  EXPECT_EQ(least_confirm_count(config), 2);
+}
+
+// 10.6 tracks in 60 frames of 256x256 when confirm_count did not follow snr.
+TEST(HPmhtLives, AreFewInNoiseHoweverDimTheTargetsMayBe) {
+  HPmhtConfig config;
+  config.snr = 6;
+  HPmht tracker(config, Device::tbb(2), 1);
+  TrackLog log;
+  Scene scene;
+  scene.width = scene.height = 256, scene.frames = 30;
+  for (int k = 0; k < scene.frames; ++k) {
+    Scan scan;
+    scan.frame = k, scan.time = k, scan.whitened = Frame(render(scene, 3, k));
+    tracker.step(scan, log);
+  }
+  EXPECT_LE(extents(log.online()).size(), 1U);
+}
+
 // A pair of frames makes a candidate, which is confirmed at its fifth and traced back to its first.
 TEST(HPmhtLives, ACandidateIsConfirmedAtTheLastOfConfirmFrames) {
   Film film(noiseless(), {target(4, 30, {10, 12, 1, 0.5})});

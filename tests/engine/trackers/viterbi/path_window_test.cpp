@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace glint {
 namespace {
@@ -40,6 +41,35 @@ TEST(PathWindow, TrimsStagesThatShowNothing) {
   ASSERT_EQ(paths.size(), 1u);
   EXPECT_EQ(paths[0].first, 1u);
   EXPECT_EQ(paths[0].last, 4u);
+}
+
+// A cell of 10 between 48 of 10 - ln 2 would leave it half a weight each; here one neighbour to the
+// right and two below, diagonally, have that, and all others none.
+TEST(PathWindow, WeighsWhatLiesAroundACell) {
+  PathWindow window(2, 3, Device::tbb(1));
+  const float half = 10 - std::log(2.0F);
+  for (int k = 0; k < 2; ++k) {
+    const ImageView<float> map = window.next(30, 20);
+    for (int y = 0; y < 20; ++y) std::fill_n(map.row(y), 30, -100.0F);
+    map(15, 10) = 10, map(16, 10) = map(16, 12) = half;
+    window.push({3, 1});
+  }
+  const auto paths = window.find(15);
+  ASSERT_EQ(paths.size(), 1u);
+  const WindowPath::Cell& cell = paths[0].cells[1];
+  EXPECT_NEAR(cell.weight, 2, 1e-5);
+  EXPECT_NEAR(cell.var_x, 0.5 + 1.0 / 12, 1e-5);  // a quarter each at 1 to the right
+  EXPECT_NEAR(cell.cov_xy, 0.25 * 2, 1e-5);       // one of them 2 below
+  EXPECT_NEAR(cell.var_y, 0.25 * 4 + 1.0 / 12, 1e-5);
+  // Twenty for the cells, twice ln 2 for what is near, 600 cells, 7x7 moves.
+  EXPECT_NEAR(paths[0].log_odds, 20 + 2 * std::log(2) - std::log(600) - std::log(49), 1e-4);
+}
+
+TEST(PathWindow, LaterMovesAreFreeWithinTheToleranceOnly) {
+  PathWindow window = window_with_path(Device::tbb(1), 0, 5, -100);  // tolerance 5: 11x11 moves
+  const auto paths = window.find(30);
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_NEAR(paths[0].log_odds, 50 - std::log(600) - std::log(49) - 3 * std::log(121), 1e-4);
 }
 
 /// A window of 5 stages over a 30x20 frame of -1 with a cell of 10 and one of 9 a stage, at x = 5 +

@@ -54,6 +54,31 @@ TEST(Viterbi, KnowsTheVelocity) {
   EXPECT_NEAR(sum / count, 1.8, 0.15);
 }
 
+TEST(Viterbi, StatesHowSureItIs) {
+  Scene scene = scene_of({target(2, 20, {6, 8, 0.8, 0.6}, 18)});
+  scene.interval = 0.5;
+  const TrackLog log = track<Viterbi>(scene, config_for(18));
+  std::int64_t halted = 0;
+  for (const TrackPoint& p : log.online()) {
+    if (p.status == TrackStatus::halted) {
+      EXPECT_EQ(p.existence, 0);
+      ++halted;
+      continue;
+    }
+    EXPECT_GT(p.existence, 0.9);
+    EXPECT_GE(p.var_x, 1.0 / 12);
+    // Over two frames of .5 s, from the cell two before to the newest.
+    EXPECT_NEAR(p.cov_x_vx, p.var_x, 1e-9);
+    EXPECT_NEAR(p.cov_y_vy, p.var_y, 1e-9);
+    EXPECT_GT(p.var_vx, p.var_x);
+  }
+  EXPECT_EQ(halted, 1);
+  // But for the first and the last, a cell has no share in its velocity.
+  const auto revised = log.revised();
+  EXPECT_EQ(std::ranges::count_if(revised, [](const TrackPoint& p) { return p.cov_x_vx == 0; }),
+            static_cast<std::ptrdiff_t>(revised.size()) - 2);
+}
+
 TEST(Viterbi, EndsATrackSoonAfterItsTargetHasVanished) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const TrackLog log = track<Viterbi>(one_target(16, 2, 15), config_for(16), seed);

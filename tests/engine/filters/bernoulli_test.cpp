@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glint/engine/trackers/phd/bernoulli.hpp"
+#include "glint/engine/filters/bernoulli.hpp"
 
 #include <gtest/gtest.h>
 
