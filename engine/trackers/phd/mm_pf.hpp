@@ -21,9 +21,9 @@ struct MmPfConfig : DetectorConfig, FollowedTargetsConfig {
 void describe(FieldList& f, MmPfConfig& c);
 
 /// Heuristic multi-target MM-PF track-before-detect, what P-PHD section 5.3 compares with: the
-/// detector's weights sum to the posterior odds of one more target, Boers and Driessen's likelihood
-/// ratio test declares it, its cluster starts a particle filter of its own, and the detector starts
-/// again without particles.
+/// weights of a cluster of the detector's particles sum to the posterior odds of a target there,
+/// Boers and Driessen's likelihood ratio test declares it, it starts a particle filter of its own,
+/// and its particles leave the detector.
 class MmPf : public TrackerOf<MmPf> {
  public:
   /// Throws ConfigError for settings that do not fit together.
