@@ -132,12 +132,13 @@ void TrackTable::take_from(ByteReader& from) {
   }
 }
 
-void TrackTable::confirm(std::int64_t track_id, std::int64_t frame) {
+void TrackTable::confirm(std::int64_t track_id, std::int64_t frame, double existence) {
   for (std::size_t i = lower_bound(frame); i < frames_.size(); ++i) {
     const std::size_t node = find(frames_[i], track_id).node;
     if (node == kNone) continue;
-    TrackStatus& status = nodes_[node].point.status;
-    if (status == TrackStatus::tentative) status = TrackStatus::confirmed;
+    TrackPoint& point = nodes_[node].point;
+    if (point.status != TrackStatus::tentative || point.existence < existence) continue;
+    point.status = TrackStatus::confirmed;
   }
 }
 

@@ -53,7 +53,7 @@ class TrackTable {
   /// Removes the points before `frame`, and keeps none that come there later.
   void forget(std::int64_t frame);
   /// Tentative points of the track from `frame` on become confirmed.
-  void confirm(std::int64_t track_id, std::int64_t frame);
+  void confirm(std::int64_t track_id, std::int64_t frame, double existence);
   /// Calls f(point) for the points of `frame`, by track id.
   template <class F>
   void at(std::int64_t frame, F&& f) const {
@@ -121,7 +121,10 @@ class TrackLog {
   /// Replaces or adds a point of an earlier frame in the revised record only.
   void revise(const TrackPoint& point) { revised_.put(point); }
   /// Marks the track's tentative points from `frame` on as confirmed in the revised record.
-  void confirm(std::int64_t track_id, std::int64_t frame) { revised_.confirm(track_id, frame); }
+  /// Those that state an existence below `existence` stay what they are.
+  void confirm(std::int64_t track_id, std::int64_t frame, double existence = 0) {
+    revised_.confirm(track_id, frame, existence);
+  }
   /// Removes the track's points from `frame` on in the revised record.
   void drop(std::int64_t track_id, std::int64_t frame) { revised_.remove(track_id, frame); }
 

@@ -15,10 +15,6 @@
 namespace glint {
 namespace {
 
-// Above it a pixel gets no more births, so that bright targets leave some to the dim ones. In a
-// proposal it is made up for by weights.
-constexpr float kMostLogRatio = 12;
-
 /// Pixels above the threshold, as flat indices; none in the mask.
 void cells_above(FrameView z, const PixelMask& mask, double threshold,
                  std::vector<std::uint32_t>& cells) {
@@ -84,19 +80,20 @@ void Births::score(const Frame& z, const PixelMask& mask) {
                             .energy = static_cast<float>(energy * energy),
                             .intensity_low = intensity_low_,
                             .intensity_high = intensity_high_,
-                            .high = kMostLogRatio,
                             .score = {scores.data(), view.width, view.height, view.width},
                             .masked = mask.boxes(),
                             .row_sums = row_sums_});
   now_.total = std::accumulate(row_sums_.begin(), row_sums_.end(), 0.0);
 }
 
-/// A pixel of noise has a score of about 1, one that may well show a target up to kMostLogRatio's.
-std::size_t Births::number_for(double score) const {
-  constexpr double kPixels = 256 * 256;  // of noise that birth_particles are enough for
+/// As large a share of the pixels as birth_particles are of 256x256.
+std::size_t Births::number_for(const Frame& z) const {
+  constexpr double kPixels = 256 * 256;
+  const double pixels = static_cast<double>(z.width()) * z.height();
   const double times =
-      std::clamp(std::floor(score / kPixels), 1.0, static_cast<double>(config_.birth_growth));
-  return static_cast<std::size_t>(config_.birth_particles * times);
+      std::clamp(std::floor(pixels / kPixels), 1.0, static_cast<double>(config_.birth_growth));
+  return static_cast<std::size_t>(
+      std::min(config_.birth_particles * times, static_cast<double>(Resample::kMaxCount)));
 }
 
 std::size_t Births::prepare(const BirthScan& scan) {
@@ -111,7 +108,7 @@ std::size_t Births::prepare(const BirthScan& scan) {
         before_.whitened.width() != scan.z.width() || before_.whitened.height() != scan.z.height();
     total = first || total <= 0 ? 0 : before_.total;
   }
-  return count_ = total > 0 ? number_for(total) : 0;
+  return count_ = total > 0 ? number_for(scan.z) : 0;
 }
 
 void Births::draw(const BirthScan& scan, Particles& particles, std::size_t at) {

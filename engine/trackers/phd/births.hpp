@@ -30,7 +30,7 @@ enum class BirthProposal {
 struct BirthConfig {
   BirthProposal birth = BirthProposal::two_frame;
   int birth_particles = 4000;    ///< new-born particles a frame, J
-  int birth_growth = 1;          ///< J is up to so many times as large where more can be born
+  int birth_growth = 1;          ///< J is up to so many times as large in large frames
   double birth_mass = 0.05;      ///< expected new-born targets a frame, gamma
   double birth_threshold = 1.5;  ///< of the uniform proposal [noise sigmas]
 };
@@ -77,7 +77,7 @@ class Births {
   /// resized), on the host and on the device if they are resident.
   void draw(const BirthScan& scan, Particles& particles, std::size_t at);
 
-  // The present frame is the frame before of the next draw().
+  // The present frame is the frame before of the next prepare().
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.spread_.sigma, s.intensity_low_, s.intensity_high_, s.jitter_, s.now_);
@@ -86,7 +86,7 @@ class Births {
 
  private:
   void score(const Frame& z, const PixelMask& mask);
-  std::size_t number_for(double score) const;
+  std::size_t number_for(const Frame& z) const;
   void draw_uniform(const BirthScan& scan, Particles& p, std::size_t at);
   void draw_matched(const BirthScan& scan, Particles& p, std::size_t at);
   void draw_two_frame(const BirthScan& scan, Particles& p, std::size_t at);

@@ -12,6 +12,7 @@ namespace {
 
 // The targets must not draw the same random numbers as the detector.
 constexpr std::uint64_t kTargets = std::uint64_t{0x7A} << 56;
+constexpr double kLeastOfCued = 1e-3;  // existence below which a target that was cued is given up
 
 double distance(const Peak& a, const Peak& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -122,7 +123,10 @@ void FollowedTargets::update_life(FollowedTarget& target, const TargetUpdate& up
   }
   ++target.misses;
   const int patience = target.confirmed ? config_.halt_misses : 1;
-  if (config_.rule == LifeRule::existence) target.ended = target.misses >= patience;
+  if (config_.rule == LifeRule::existence) {
+    // Somebody's word is worth more patience.
+    target.ended = target.misses >= patience && (!target.cued || target.existence < kLeastOfCued);
+  }
   target.ended = target.ended || update.mean_ratio <= 0;  // out of view
 }
 
@@ -145,7 +149,7 @@ void FollowedTargets::report(FollowedTarget& target, const StepTime& at, TrackLo
   point.existence = target.existence;
   const bool confirmed = target.confirmed || target.hits >= config_.confirm_hits;
   // What is not likely to be there is not said to be, whatever its past.
-  const bool likely = target.cued || target.existence >= config_.existence;
+  const bool likely = target.existence >= config_.existence;
   point.status = confirmed && likely ? TrackStatus::confirmed : TrackStatus::tentative;
   // It is likelier to live than to have ended before: then it was there in the frames between, too.
   if (confirmed && target.recovered) log.confirm(target.id, target.first_missed);

@@ -159,7 +159,7 @@ void Identities::report(const Track& track, const Peak& peak, std::size_t modes,
   const bool confirmed = track.seen && track.hits >= config_.confirm_hits;
   point.status = confirmed ? TrackStatus::confirmed : TrackStatus::tentative;
   log.report(point);
-  if (confirmed && track.hits == config_.confirm_hits) log.confirm(track.id, 0);
+  if (confirmed && track.hits == config_.confirm_hits) log.confirm(track.id, 0, 0.5);
 }
 
 void Identities::halt_missing(const StepTime& at, TrackLog& log) {

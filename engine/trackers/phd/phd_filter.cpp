@@ -11,6 +11,8 @@
 namespace glint {
 namespace {
 
+constexpr double kMostOdds = 1e8;  // of a particle, in the next frame
+
 std::uint64_t index_of(std::int64_t frame) { return static_cast<std::uint64_t>(frame); }
 
 }  // namespace
@@ -131,8 +133,31 @@ void PhdFilter::update(const Frame& z, std::int64_t frame) {
     // The odds of one bright target would take all particles; the share in its pixels is 1 at most.
     particles_.swap_weight(drawn_by_);
     cells_.runs.mass.assign(cells_.cell_sum.begin(), cells_.cell_sum.end());
+    bound_odds();
   }
   fetched_ = false;
+}
+
+/// Beyond the range of float there is no share in a pixel any more: each particle there then counts
+/// alike.
+void PhdFilter::bound_odds() {
+  constexpr float kFinite = 1e30F;
+  const auto finite = [](float v) { return v < kFinite; };  // false for NaN
+  if (std::ranges::all_of(cells_.runs.mass, finite)) return;
+  for (float& mass : cells_.runs.mass) mass = finite(mass) ? mass : kFinite;
+  auto& weight = particles().weight;
+  drawn_by_.fetch();
+  expected_ = 0;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    float& share = drawn_by_.values()[i];
+    if (!(share >= 0 && share <= 1) || !finite(weight[i])) {
+      share = 1 / static_cast<float>(config_.particles_per_target);
+    }
+    weight[i] = finite(weight[i]) ? weight[i] : kFinite;
+    expected_ += share;
+  }
+  device_.send(std::span(weight));
+  drawn_by_.send();
 }
 
 void PhdFilter::remove(std::span<const std::uint32_t> members) {
@@ -181,7 +206,10 @@ void PhdFilter::weigh_anew(std::size_t kept) {
   const auto& weight = particles().weight;
   for (std::size_t i = 0; i < kept; ++i) {
     const std::uint32_t from = ancestors_.values()[i];
-    moved_.arrays().weight[i] = static_cast<float>(each * weight[from] / drawn_by_.values()[from]);
+    const float share = drawn_by_.values()[from];
+    const double odds =
+        share > 0 ? each * weight[from] / share : 0;  // none left: drawn all the same
+    moved_.arrays().weight[i] = static_cast<float>(std::min(odds, kMostOdds));
   }
   device_.send(std::span(moved_.arrays().weight));
 }

@@ -92,6 +92,7 @@ class PhdFilter {
  private:
   void give_birth(const Frame& z, std::int64_t frame, double step, const PixelMask& mask);
   void set_survivors(const PixelMask& mask);
+  void bound_odds();
   void weigh_anew(std::size_t kept);
   bool odds() const { return weight_sum_ == WeightSum::odds; }
 

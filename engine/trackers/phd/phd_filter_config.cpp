@@ -21,8 +21,8 @@ void describe(FieldList& f, BirthConfig& c) {
     "where new particles are drawn; two-frame equals ten times the particles");
   f("birth_particles", c.birth_particles, 1, 10000000, "", "new particles a frame");
   f("birth_growth", c.birth_growth, 1, 1000, "",
-    "up to so many times as many in frames larger than 256x256 and with many hits; not for "
-    "uniform");
+    "in a frame so many times as large as 256x256 so many times as many are born, at most this "
+    "number of times; not for uniform");
   f("birth_mass", c.birth_mass, 0, 1000, "", "expected new targets a frame");
   f("birth_threshold", c.birth_threshold, -100, 100, "sigma",
     "uniform births fall near pixels above this");

@@ -22,7 +22,7 @@ enum class StateExtraction { peaks, kmeans };
 
 /// Settings of `smc-phd`.
 struct SmcPhdConfig : PhdFilterConfig {
-  SmcPhdConfig() { birth_growth = 8; }
+  SmcPhdConfig() { birth_growth = 4; }
   // How particles become targets.
   StateExtraction states = StateExtraction::peaks;
   double existence = 0.5;       ///< least mass of a target

@@ -170,6 +170,20 @@ TEST(TrackLog, AgreesWithAMap) {
   EXPECT_TRUE(std::ranges::is_sorted(keys(log.revised())));
 }
 
+TEST(TrackLog, ConfirmsNoPointThatDoubtsItself) {
+  TrackLog log;
+  for (int frame = 0; frame < 3; ++frame) {
+    TrackPoint p = point(frame, 1);
+    if (frame > 0) p.existence = 0.25 * frame;  // the first states none
+    log.report(p);
+  }
+  log.confirm(1, 0, 0.5);
+  const auto points = log.revised();
+  EXPECT_EQ(points[0].status, TrackStatus::confirmed);
+  EXPECT_EQ(points[1].status, TrackStatus::tentative);
+  EXPECT_EQ(points[2].status, TrackStatus::confirmed);
+}
+
 TEST(TrackLog, TextTellsEveryDifference) {
   TrackLog log;
   log.set_mode_names({"cv", "turn"});

@@ -214,6 +214,32 @@ TEST(PhdFilter, OfOddsSumsWeightTimesLikelihood) {
   EXPECT_NEAR(f.sum_of_weights(), 0.99 * kMass, 1e-3);
 }
 
+TEST(PhdFilter, OfOddsStaysInTheRangeOfFloats) {
+  PhdFilterConfig config = config_of(1e6);
+  config.birth_mass = 1000;
+  Filter f(config, WeightSum::odds);
+  const Frame z = image_of(1e6, {{20, 15}});
+  for (int k = 0; k < 20; ++k) {
+    f.update(z);
+    EXPECT_TRUE(std::isfinite(f.sum_of_weights()) && std::isfinite(f.phd.expected())) << k;
+    EXPECT_GT(f.sum_of_weights(), 1);
+    f.phd.resample(f.frame);
+    ASSERT_GT(f.phd.size(), 0u) << k;
+  }
+}
+
+TEST(PhdFilter, OfOddsOutlivesTheRemovalOfAllItsParticles) {
+  Filter f(config_of(), WeightSum::odds);
+  f.update(bright_at({{20, 15}}));
+  std::vector<std::uint32_t> all(f.phd.particles().size());
+  std::iota(all.begin(), all.end(), 0U);
+  f.phd.remove(all);
+  f.phd.resample(f.frame);
+  EXPECT_NEAR(f.sum_of_weights(), 0, 1e-6);  // and no NaN
+  f.update(empty_frame());
+  EXPECT_FALSE(std::isnan(f.phd.expected()));
+}
+
 /// After resampling: particles at the left of two pixels, the right one of which shows a target.
 struct Left {
   double share = 0, weight = 0;
