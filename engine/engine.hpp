@@ -86,13 +86,13 @@ class Engine {
   bool push(SourceFrame frame);
 
   /// Somebody's word for a target at (x, y) [px] with velocity (vx, vy) [px/s] in the frame that is
-  /// pushed next: every tracker starts a confirmed track there. `sigma` is the standard deviation
-  /// of x and of y [px], NaN what the tracker takes a position to err by: a point's own error, 2 px
-  /// on frames. A velocity that is not given (NaN), or comes before the first frame, is looked for.
-  /// A target that has a track gets no second one; outside the frame none starts. A cue in the
-  /// first frames wants frames.background_prime: the background is not known there. Throws
-  /// std::invalid_argument for other numbers, std::logic_error after finish(), and what ended the
-  /// engine.
+  /// pushed next: every tracker starts a confirmed track there (docs/cues.md says what each makes
+  /// of it). `sigma` is the standard deviation of x and of y [px], NaN what the tracker takes a
+  /// position to err by: a point's own error, 2 px on frames. A velocity that is not given (NaN),
+  /// or comes before the first frame, is looked for. A target that has a track gets no second one;
+  /// outside the frame none starts. A cue in the first frames wants frames.background_prime: the
+  /// background is not known there. Throws std::invalid_argument for other numbers,
+  /// std::logic_error after finish(), and what ended the engine.
   void start(double x, double y, double vx = Cue::kUnknown, double vy = Cue::kUnknown,
              double sigma = Cue::kUnknown);
 

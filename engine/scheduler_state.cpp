@@ -37,6 +37,7 @@ void Scheduler::State::prepare(Token& token) {
       finder.find(token.scan, token.points);
     }
     token.cues = std::move(source.cues);
+    for (const Cue& cue : token.cues) checked(cue);
     token.source.reset();
     if (finds_points) token.scan.points = token.points;
   });
@@ -50,6 +51,7 @@ void Scheduler::State::track(std::size_t i, Token& token) {
     if (token.scan.looked || entry.tracker->feed() != Feed::points) {
       entry.tracker->step(token.scan, entry.log);
     }
+    token.scan.cues = {};  // they are the stage's, and go with its next scan
     entry.log.at(token.frame, token.reported[i]);
     if (kept > 0) entry.log.forget(token.frame - kept + 1);
   });

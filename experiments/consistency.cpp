@@ -7,6 +7,7 @@
 #include "glint/engine/scenario/scenes.hpp"
 #include "glint/experiments/monte_carlo.hpp"
 #include "glint/experiments/phd.hpp"
+#include "glint/experiments/phd_settings.hpp"
 #include "glint/experiments/scene_run.hpp"
 
 namespace glint {
@@ -27,9 +28,7 @@ constexpr std::array kFields{Field{64, 1.5, 3}, Field{64, 1.5, 6}, Field{256, 3,
 /// The trackers' own settings, but for how dim a target may be.
 TrackerSetup setup_of(const std::string& tracker) {
   if (tracker == "h-pmht") return {tracker, {{"snr", 6.0}}};
-  TrackerSetup setup{tracker, {{"snr_low", 2.0}, {"snr_high", 16.0}}};
-  if (tracker == "mm-phd") setup.settings.push_back({"confirm_hits", 3});
-  return setup;
+  return phd::dim_target_setup(tracker);
 }
 
 Consistency run_of(const char* tracker, const Field& field, std::uint64_t seed) {

@@ -14,6 +14,7 @@
 #include "glint/engine/scenario/scenes.hpp"
 #include "glint/experiments/monte_carlo.hpp"
 #include "glint/experiments/phd.hpp"
+#include "glint/experiments/phd_settings.hpp"
 #include "glint/experiments/scene_run.hpp"
 #include "glint/kernels/core/random.hpp"
 
@@ -32,9 +33,8 @@ auto fields(OneOf<CueRun> auto& r) { return std::tie(r.held, r.near, r.ended); }
 
 /// The settings of `dim-target`, and as many particles as profile L has.
 TrackerSetup setup_of(const std::string& tracker) {
-  TrackerSetup setup{tracker, {{"snr_low", 2.0}, {"snr_high", 16.0}}};
+  TrackerSetup setup = phd::dim_target_setup(tracker);
   if (tracker != "smc-phd") setup.settings.push_back({"target_particles", 4000});
-  if (tracker == "mm-phd") setup.settings.push_back({"confirm_hits", 3});
   return setup;
 }
 
@@ -105,12 +105,6 @@ CueRun on_noise(const char* tracker, std::uint64_t seed) {
   return run;
 }
 
-std::vector<double> values_of(const std::vector<CueRun>& runs, double CueRun::*of) {
-  std::vector<double> values;
-  for (const CueRun& run : runs) values.push_back(run.*of);
-  return values;
-}
-
 }  // namespace
 
 ExperimentResult run_cue(const ExperimentOptions& options, Workers& workers) {
@@ -131,9 +125,9 @@ ExperimentResult run_cue(const ExperimentOptions& options, Workers& workers) {
                          std::optional<Band> of = {}) {
       result.rows.push_back(value_row(row, metric, values, of));
     };
-    add(name + ", 3 dB", "held", values_of(runs[2 * i], &CueRun::held), band(.9, {}));
-    add(name + ", 3 dB", "share of frames", values_of(runs[2 * i], &CueRun::near));
-    const std::vector<double> ends = values_of(runs[2 * i + 1], &CueRun::ended);
+    add(name + ", 3 dB", "held", column(runs[2 * i], &CueRun::held), band(.9, {}));
+    add(name + ", 3 dB", "share of frames", column(runs[2 * i], &CueRun::near));
+    const std::vector<double> ends = column(runs[2 * i + 1], &CueRun::ended);
     add(name + ", noise alone", "ends after [frames]", ends, band({}, 8));
     add(name + ", noise alone", "longest [frames]", {*std::ranges::max_element(ends)});
   }

@@ -7,6 +7,7 @@
 #include "glint/engine/scenario/scenes.hpp"
 #include "glint/experiments/monte_carlo.hpp"
 #include "glint/experiments/phd.hpp"
+#include "glint/experiments/phd_settings.hpp"
 #include "glint/experiments/scene_run.hpp"
 
 namespace glint {
@@ -24,9 +25,7 @@ auto fields(OneOf<FieldRun> auto& r) {
 
 TrackerSetup setup_of(const std::string& tracker) {
   if (tracker == "h-pmht") return {tracker, {}};
-  TrackerSetup setup{tracker, {{"snr_low", 2.0}, {"snr_high", 16.0}}};
-  if (tracker == "mm-phd") setup.settings.push_back({"confirm_hits", 3});
-  return setup;
+  return phd::dim_target_setup(tracker);
 }
 
 FieldRun run_of(const char* tracker, const ExperimentOptions& options, std::uint64_t seed) {
@@ -64,9 +63,7 @@ ExperimentResult run_dim_field(const ExperimentOptions& options, Workers& worker
   for (std::size_t t = 0; t < kTrackers.size(); ++t) {
     const std::string name = kTrackers[t];
     const auto add = [&](const char* metric, double FieldRun::*of, std::optional<Band> band) {
-      std::vector<double> values;
-      for (const FieldRun& run : runs[t]) values.push_back(run.*of);
-      result.rows.push_back(value_row(name, metric, values, band));
+      result.rows.push_back(value_row(name, metric, column(runs[t], of), band));
     };
     add("detected", &FieldRun::detected, band_of(name));
     add("OSPA [px]", &FieldRun::ospa, {});

@@ -11,6 +11,7 @@
 #include "glint/experiments/figures.hpp"
 #include "glint/experiments/monte_carlo.hpp"
 #include "glint/experiments/phd.hpp"
+#include "glint/experiments/phd_settings.hpp"
 #include "glint/experiments/scene_run.hpp"
 
 namespace glint {
@@ -25,14 +26,6 @@ struct Level {
 };
 constexpr std::array kLevels{Level{12, .82, .1}, Level{6, .75, .1}, Level{3, .5, .1}};
 
-/// A tracker's one setting for all levels. White noise has no residues of a background, which more
-/// hits of `mm-phd` are for.
-TrackerSetup setup_of(const std::string& tracker) {
-  TrackerSetup setup{tracker, {{"snr_low", 2.0}, {"snr_high", 16.0}}};
-  if (tracker == "mm-phd") setup.settings.push_back({"confirm_hits", 3});
-  return setup;
-}
-
 struct DimRun {
   double detected = 0, delay = kUndefined, ospa = 0, false_tracks = 0;
 };
@@ -41,7 +34,7 @@ auto fields(OneOf<DimRun> auto& r) { return std::tie(r.detected, r.delay, r.ospa
 DimRun run_of(const Level& level, const char* tracker, std::uint64_t seed) {
   DimTargetScene config;
   config.snr = level.snr, config.variant = static_cast<int>(seed);
-  const SceneRun run = run_scene(make_scene(config), setup_of(tracker), seed);
+  const SceneRun run = run_scene(make_scene(config), phd::dim_target_setup(tracker), seed);
   const std::vector<double>& error = run.online.targets.front().error;
   DimRun result;
   double there = 0;
@@ -61,7 +54,7 @@ DimRun run_of(const Level& level, const char* tracker, std::uint64_t seed) {
 double tracks_in_noise(const char* tracker, std::uint64_t seed) {
   NoiseScene config;
   config.width = config.height = 64, config.frames = 100;
-  const SceneRun run = run_scene(make_scene(config), setup_of(tracker), seed);
+  const SceneRun run = run_scene(make_scene(config), phd::dim_target_setup(tracker), seed);
   return 2000.0 / config.frames * static_cast<double>(run.online.scores.false_tracks);
 }
 

@@ -27,4 +27,10 @@ Settings table_1(int birth_particles) {
           {"particles_per_target", std::int64_t{4000}}};
 }
 
+TrackerSetup dim_target_setup(const std::string& tracker) {
+  TrackerSetup setup{tracker, {{"snr_low", 2.0}, {"snr_high", 16.0}}};
+  if (tracker == "mm-phd") setup.settings.push_back({"confirm_hits", 3});
+  return setup;
+}
+
 }  // namespace glint::phd

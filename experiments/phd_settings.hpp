@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <string>
+
 #include "glint/experiments/tracker_setup.hpp"
 
 namespace glint::phd {
@@ -13,5 +15,9 @@ Settings process_noise(double multiple, double psf_sigma, double step);
 
 /// P-PHD table 1: particles and rates of the particle filters.
 Settings table_1(int birth_particles);
+
+/// A particle filter's one setting for dim targets of all levels, on the scenes `dim-target` and
+/// `dim-field`. White noise has no residues of a background, which more hits of `mm-phd` are for.
+TrackerSetup dim_target_setup(const std::string& tracker);
 
 }  // namespace glint::phd

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glint/engine/filters/gaussian.hpp"
 #include "glint/kernels/core/random.hpp"
 
 namespace glint {
@@ -36,9 +37,15 @@ Eigen::Vector3d noise_of(const Radar& radar, std::size_t target, RandomKey key) 
 /// `targets`: what would be measured of them without noise.
 void add_clutter(const Radar& radar, const std::vector<Eigen::Vector3d>& targets, RandomKey key,
                  std::vector<Eigen::Vector3d>& points) {
+  const bool polar = radar.measures != RadarMeasurement::position;
   Eigen::Vector3d low = targets.front(), high = low;
-  for (const Eigen::Vector3d& t : targets) low = low.cwiseMin(t), high = high.cwiseMax(t);
+  for (Eigen::Vector3d t : targets) {
+    // The box lies around the targets, not around the radar, wherever azimuths jump.
+    if (polar) t.y() = targets.front().y() + wrapped(t.y() - targets.front().y());
+    low = low.cwiseMin(t), high = high.cwiseMax(t);
+  }
   low -= radar.margin, high += radar.margin;
+  if (polar) low.x() = std::max(0.0, low.x());
   const int axes = radar.measures == RadarMeasurement::position ? 2 : 3;
   const double expected = radar.clutter * (high - low).head(axes).prod();
   double arrived = 0;  // of a Poisson process
@@ -47,7 +54,9 @@ void add_clutter(const Radar& radar, const std::vector<Eigen::Vector3d>& targets
     arrived -= std::log(static_cast<double>(uniform(w.w[3])));
     if (arrived > expected) return;
     const Eigen::Vector3f share(uniform(w.w[0]), uniform(w.w[1]), uniform(w.w[2]));
-    points.emplace_back(low + share.cast<double>().cwiseProduct(high - low));
+    Eigen::Vector3d& point =
+        points.emplace_back(low + share.cast<double>().cwiseProduct(high - low));
+    if (polar) point.y() = wrapped(point.y());
   }
 }
 

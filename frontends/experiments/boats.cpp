@@ -99,9 +99,10 @@ void add_own_rows(const std::string& name, const BoatRecord& record, const HitLo
                                     lost ? std::nullopt : std::optional(least)));
     const double echoes = confirmable_at(record, id, logic, kEcho);
     const auto confirmed = score.confirmed.find(id);
-    result.rows.push_back(value_row(
-        name, boat + "confirmed at scan",
-        {confirmed == score.confirmed.end() ? kUndefined : confirmed->second}, Band{{}, echoes}));
+    result.rows.push_back(
+        value_row(name, boat + "confirmed at scan",
+                  {confirmed == score.confirmed.end() ? kUndefined : confirmed->second},
+                  std::isnan(echoes) ? std::nullopt : std::optional(Band{{}, echoes})));
   }
   result.rows.push_back(value_row(name, "false tracks", {double(score.scores.false_tracks)}));
 }

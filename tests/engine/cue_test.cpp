@@ -84,8 +84,8 @@ class OneTarget {
     target.path = fly({20, 22, 10, -5});  // [px/s]
     scene_.targets = {target};
   }
-  /// What the tracker says with a cue 1 px off in the target's first frame, and one frame later a
-  /// cue upon the track.
+  /// What the tracker says with two cues 1 px off in the target's first frame, and one frame later
+  /// a cue upon the track.
   TrackLog follow(const TrackerEntry& entry, bool cued = true) const {
     FramesConfig frames;
     frames.background = BackgroundKind::none;
@@ -115,7 +115,10 @@ class OneTarget {
         const TruthPoint t = one.truth(k);
         frame->points->push_back({t.x + 0.3, t.y - 0.2, 10});
         const bool first = k == one.birth_;
-        if (cued && first) frame->cues.push_back({t.x + 0.8, t.y - 0.6, t.vx, t.vy, 1});
+        if (cued && first) {
+          frame->cues.push_back({t.x + 0.8, t.y - 0.6, t.vx, t.vy, 1});
+          frame->cues.push_back({t.x + 0.6, t.y + 0.8});  // two have seen it
+        }
         if (cued && k == one.birth_ + 1) frame->cues.push_back({t.x - 0.6, t.y + 0.8});
       }
       ++k;

@@ -70,12 +70,7 @@ TEST(CliTrack, TracksStartOnTheTargetsOfAFile) {
   EXPECT_FALSE(has(primed.err, "background")) << primed.err;
   EXPECT_TRUE(has(content_of(tracks), "# start_at = \"" + clip + "/truth.csv\"\n"));
   const std::vector<TrackPoint> points = read_tracks(tracks);
-  const auto confirmed_at = [&](std::int64_t frame) {
-    return std::ranges::count_if(points, [&](const TrackPoint& p) {
-      return p.frame == frame && p.status == TrackStatus::confirmed;
-    });
-  };
-  EXPECT_EQ(confirmed_at(truth[0].frame),
+  EXPECT_EQ(std::ranges::count(points, truth[0].frame, &TrackPoint::frame),
             std::ranges::count(truth, truth[0].frame, &TruthPoint::frame));
   const Result bad = glint(folder, "track " + clip + " --tracker mm-phd --start-at " +
                                        folder.write("bad.csv", "frame,x,y\n0,1,nowhere\n"));

@@ -11,8 +11,8 @@
 // The fuzzers' functions: here each file of them is compiled with a name of its own.
 using Fuzz = int(const std::uint8_t* data, std::size_t size);
 extern "C" {
-Fuzz fuzz_autoferry, fuzz_capi, fuzz_checkpoint, fuzz_config, fuzz_fits, fuzz_npy, fuzz_points_csv,
-    fuzz_points_jsonl, fuzz_raw_format, fuzz_tables;
+Fuzz fuzz_autoferry, fuzz_capi, fuzz_checkpoint, fuzz_config, fuzz_cues, fuzz_fits, fuzz_npy,
+    fuzz_points_csv, fuzz_points_jsonl, fuzz_raw_format, fuzz_tables;
 }
 
 namespace glint {
@@ -44,6 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
     Fuzz, Corpus,
     testing::Values(Fuzzer{"autoferry", fuzz_autoferry}, Fuzzer{"capi", fuzz_capi},
                     Fuzzer{"checkpoint", fuzz_checkpoint}, Fuzzer{"config", fuzz_config},
+                    Fuzzer{"cues", fuzz_cues},
                     Fuzzer{"fits", fuzz_fits}, Fuzzer{"npy", fuzz_npy},
                     Fuzzer{"points_csv", fuzz_points_csv},
                     Fuzzer{"points_jsonl", fuzz_points_jsonl},

@@ -155,7 +155,10 @@ void HPmht::take_cues(const Scan& scan) {
       const BatchState& s = last_state(targets_[k]);
       followed = lives_[k].id != 0 && std::hypot(s.x - cue.x, s.y - cue.y) < config_.separation;
     }
-    if (followed) continue;
+    const bool told = std::ranges::any_of(starts_, [&](const Start& start) {
+      return std::hypot(start.x - cue.x, start.y - cue.y) < config_.separation;
+    });
+    if (followed || told) continue;
     const double sigma = cue.sigma_or(0), speed = config_.speed_max;
     starts_.push_back(cue.moves() ? Start{cue.x, cue.y, cue.vx / rate, cue.vy / rate, sigma * sigma}
                                   : Start{cue.x, cue.y, 0, 0, sigma * sigma, speed * speed / 3});

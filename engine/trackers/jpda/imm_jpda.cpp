@@ -143,7 +143,10 @@ void ImmJpda::take_cues(const Scan& scan, const StepTime& at) {
     const bool followed = std::ranges::any_of(confirmed_.tracks, [&](const PointTrack& track) {
       return track.near({cue.x, cue.y}, config_.separation);
     });
-    if (!followed) known_.push_back(known_target(cue, rate(at), config_.speed_max));
+    const bool told = std::ranges::any_of(known_, [&](const KnownTarget& target) {
+      return std::hypot(target.state(0) - cue.x, target.state(2) - cue.y) < config_.separation;
+    });
+    if (!followed && !told) known_.push_back(known_target(cue, rate(at), config_.speed_max));
   }
 }
 

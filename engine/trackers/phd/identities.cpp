@@ -67,10 +67,10 @@ bool Identities::near_seen(const Peak& peak) const {
 // The mass is what a PHD makes of the frame before and of this one. Where none was found in the
 // frame before there is nothing to go on from but that.
 void Identities::weigh(Track& track, const Peak& peak, double step) const {
-  const double survival = std::pow(survival_, step);
+  // The filter lets its particles survive once, however many frames a scan is on.
   track.existence = track.mass > 0
-                        ? bernoulli_update(track.existence, survival,
-                                           ratio_of_mass(peak.mass, track.mass, survival))
+                        ? bernoulli_update(track.existence, std::pow(survival_, step),
+                                           ratio_of_mass(peak.mass, track.mass, survival_))
                         : std::min(1.0, peak.mass);
   track.mass = peak.mass;
 }

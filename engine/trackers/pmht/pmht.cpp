@@ -81,7 +81,10 @@ void PmhtTracker<Config, Bank>::take_cues(const Scan& scan, const StepTime& at) 
     const bool followed = std::ranges::any_of(tracks_, [&](const Track& track) {
       return track.life.confirmed() && track.near({cue.x, cue.y}, config_.separation);
     });
-    if (followed) continue;
+    const bool told = std::ranges::any_of(known_, [&](const PmhtStart& start) {
+      return (start.position - Eigen::Vector2d(cue.x, cue.y)).norm() < config_.separation;
+    });
+    if (followed || told) continue;
     const KnownTarget target = known_target(cue, rate(at), config_.speed_max);
     known_.push_back({{cue.x, cue.y},
                       {target.state(1), target.state(3)},

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace glint {
 namespace {
 
@@ -25,6 +28,13 @@ TEST(Bernoulli, TheRatioOfAFrameIsInTheMass) {
   EXPECT_NEAR(ratio_of_mass(weight / (1 + weight), before, survival), ratio, 1e-12);
   EXPECT_LT(ratio_of_mass(1.5, before, survival), 1e7);  // of two targets: not infinite
   EXPECT_GT(ratio_of_mass(1.5, before, survival), 1e5);
+}
+
+TEST(Bernoulli, NothingIsCertainWhereNoTargetSurvives) {
+  const double ratio = ratio_of_mass(0.5, 0.5, 0);
+  EXPECT_GT(ratio, 1e50);
+  EXPECT_NEAR(bernoulli_update(0.5, 0.9, ratio), 1, 1e-9);
+  EXPECT_FALSE(std::isnan(bernoulli_update(0.5, 0, std::numeric_limits<double>::infinity())));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,26 @@ TEST(RadarAircraft, AreMeasuredFromWhereTheRadarStands) {
   EXPECT_LT((points[0] - Eigen::Vector3d(50, std::acos(0), std::atan2(40, 30))).norm(), 1e-9);
   EXPECT_NEAR(points[1].x(), std::sqrt(600. * 600 + 250 * 250 + 40 * 40), 1e-9);
   EXPECT_NEAR(points[2].y(), std::atan2(30, 1300), 1e-12);
+}
+
+// Azimuths jump from pi to -pi between targets that are seen from the east.
+TEST(RadarAircraft, FalsePointsLieAroundTheTargetsWhereverTheRadarStands) {
+  for (const double x : {-20000.0, 40000.0, 9200.0}) {
+    RadarAircraftScene config = exact_aircraft();
+    config.clutter = 0.1, config.sensor_x = x, config.sensor_y = 1710;
+    const RadarScene scene = make_scene(config);
+    double points = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      for (const Eigen::Vector3d& point : points_at(scene, seed, 0)) {
+        EXPECT_GE(point.x(), 0) << x;
+        EXPECT_LE(std::abs(point.y()), std::numbers::pi) << x;
+        ++points;
+      }
+    }
+    if (x != 9200) {
+      EXPECT_LT(points / 20, 100) << x;  // three targets, and a box of some degrees
+    }
+  }
 }
 
 TEST(RadarAircraft, AreMeasuredAsWellAsTheRadarIs) {
