@@ -132,11 +132,11 @@ TEST(Points, OfWaveletsAreSpotsOfSeveralSizesThatAScaleFindsSignificant) {
 
 // Noise beside the mask is smoothed into it.
 TEST(Points, OfWaveletsAreNotMasked) {
-  constexpr int kSize = 60, kMasked = 30;  // the columns below are masked
-  Image<float> frame(kSize, kSize);
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = kMasked; x < kSize; ++x) {
-      const auto item = static_cast<std::uint32_t>(y * kSize + x);
+  constexpr int kSide = 60, kMasked = 30;  // the columns below are masked
+  Image<float> frame(kSide, kSide);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = kMasked; x < kSide; ++x) {
+      const auto item = static_cast<std::uint32_t>(y * kSide + x);
       frame.view()(x, y) = random_normals(random_key(5, 0, Purpose::trial), item).n[0];
     }
   }
