@@ -132,11 +132,11 @@ TEST(Points, OfWaveletsAreSpotsOfSeveralSizesThatAScaleFindsSignificant) {
 
 // Noise beside the mask is smoothed into it.
 TEST(Points, OfWaveletsAreNotMasked) {
-  constexpr int kSide = 60, kMasked = 30;  // the columns below are masked
-  Image<float> frame(kSide, kSide);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = kMasked; x < kSide; ++x) {
-      const auto item = static_cast<std::uint32_t>(y * kSide + x);
+  constexpr int kWidth = 60, kMasked = 30;  // the columns below are masked
+  Image<float> frame(kWidth, kWidth);
+  for (int y = 0; y < kWidth; ++y) {
+    for (int x = kMasked; x < kWidth; ++x) {
+      const auto item = static_cast<std::uint32_t>(y * kWidth + x);
       frame.view()(x, y) = random_normals(random_key(5, 0, Purpose::trial), item).n[0];
     }
   }
