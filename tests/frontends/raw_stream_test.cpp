@@ -130,7 +130,7 @@ TEST(RawStream, TracksComeOutAsFramesGoIn) {
     if (f < 3) continue;  // until then there may be no track
     while (last < f && readable(tracks, 20)) {
       std::array<char, 65536> buffer;
-      const ssize_t n = read(tracks, buffer.data(), buffer.size());
+      const ssize_t n = ::read(tracks, buffer.data(), buffer.size());
       if (n <= 0) break;
       text.append(buffer.data(), static_cast<std::size_t>(n));
       const std::size_t end = text.rfind('\n'), begin = text.rfind('\n', end - 1) + 1;
@@ -144,7 +144,7 @@ TEST(RawStream, TracksComeOutAsFramesGoIn) {
   close(frames);
   while (readable(tracks, 20)) {
     std::array<char, 4096> rest;
-    if (read(tracks, rest.data(), rest.size()) <= 0) break;
+    if (::read(tracks, rest.data(), rest.size()) <= 0) break;
   }
   program.join();
   close(tracks);
