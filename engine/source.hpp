@@ -22,7 +22,7 @@ struct SourceFrame {
   std::optional<std::vector<PointMeasurement>> points;
   double sensor_x = 0, sensor_y = 0;  ///< position of the sensor of range and azimuth [px]
   bool looked = true;  ///< false: it did not look; trackers of points alone pass the frame over
-  std::int64_t skipped = 0;  ///< frames lost since the one before
+  std::int64_t skipped = 0;    ///< frames lost since the one before
   std::vector<Cue> cues = {};  ///< a track starts on each in this frame
 };
 

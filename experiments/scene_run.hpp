@@ -26,7 +26,7 @@ auto fields(OneOf<TargetRecord> auto& r) { return std::tie(r.error, r.modes, r.h
 
 struct SceneScore {
   Evaluation scores;
-  Consistency consistency;  ///< of all points, tentative ones included
+  Consistency consistency;            ///< of all points, tentative ones included
   std::vector<TargetRecord> targets;  ///< in the order of the scene's
 };
 auto fields(OneOf<SceneScore> auto& s) { return std::tie(s.scores, s.consistency, s.targets); }
