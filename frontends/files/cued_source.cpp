@@ -78,10 +78,10 @@ class CuedSource : public Source {
       return frame;
     }
     number_ += frame->skipped;
-    const auto rest = std::ranges::stable_partition(
-        cues_, [&](const FileCue& cue) { return !belongs(cue, frame->time); });
-    for (FileCue& cue : rest) give(cue, *frame);
-    cues_.erase(rest.begin(), rest.end());
+    const auto first = std::stable_partition(
+        cues_.begin(), cues_.end(), [&](const FileCue& cue) { return !belongs(cue, frame->time); });
+    for (auto cue = first; cue != cues_.end(); ++cue) give(*cue, *frame);
+    cues_.erase(first, cues_.end());
     ++number_;
     return frame;
   }
