@@ -121,8 +121,8 @@ ExperimentResult run_cue(const ExperimentOptions& options, Workers& workers) {
     const auto band = [&](std::optional<double> low, std::optional<double> high) {
       return banded ? std::optional(Band{low, high}) : std::nullopt;
     };
-    const auto add = [&](const std::string& row, const char* metric, std::vector<double> values,
-                         std::optional<Band> of = {}) {
+    const auto add = [&](const std::string& row, const char* metric,
+                         const std::vector<double>& values, std::optional<Band> of = {}) {
       result.rows.push_back(value_row(row, metric, values, of));
     };
     add(name + ", 3 dB", "held", column(runs[2 * i], &CueRun::held), band(.9, {}));

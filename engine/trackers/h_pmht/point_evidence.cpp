@@ -19,12 +19,12 @@ struct Correlation {
 Correlation correlate(FrameView z, const PointSpread& spread, int x, int y) {
   const auto weights = spread.centred_weights();
   const int h = spread.half_width;
+  const double* const centred = weights.data() + h;
   Correlation sum;
   for (int j = std::max(-h, -y); j <= std::min(h, z.height - 1 - y); ++j) {
     const float* row = z.row(y + j);
     for (int i = std::max(-h, -x); i <= std::min(h, z.width - 1 - x); ++i) {
-      const double w =
-          weights[static_cast<std::size_t>(i + h)] * weights[static_cast<std::size_t>(j + h)];
+      const double w = centred[i] * centred[j];
       sum.with_target += w * row[x + i], sum.energy += w * w;
     }
   }
