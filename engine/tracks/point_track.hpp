@@ -55,6 +55,11 @@ struct KnownTarget {
   /// Standard deviations [px], [px/time]; NaN: the tracker's own.
   double position_sd = Cue::kUnknown, velocity_sd = Cue::kUnknown;
 
+  /// It is nearer to `place` than `separation` [px].
+  bool near(const Eigen::Vector2d& place, double separation) const {
+    return (Eigen::Vector2d(state(0), state(2)) - place).norm() < separation;
+  }
+
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.state, s.position_sd, s.velocity_sd);

@@ -163,7 +163,7 @@ void ImmPdaAi::take_cues(const Scan& scan, const StepTime& at) {
       return track.life.confirmed() && track.near({cue.x, cue.y}, config_.separation);
     });
     const bool told = std::ranges::any_of(known_, [&](const KnownTarget& target) {
-      return std::hypot(target.state(0) - cue.x, target.state(2) - cue.y) < config_.separation;
+      return target.near({cue.x, cue.y}, config_.separation);
     });
     if (!followed && !told) known_.push_back(known_target(cue, at.velocity_scale, 0));
   }

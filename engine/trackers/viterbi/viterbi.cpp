@@ -121,10 +121,12 @@ Viterbi::Track& Viterbi::owner(const WindowPath& path) {
   return *nearest;
 }
 
+namespace {
+
 /// Of the cell at stage k, with the velocity from stage a to stage b: errors of cells at different
 /// stages have nothing to do with each other.
-static StateCovariance covariance_of(const WindowPath& path, std::size_t a, std::size_t k,
-                                     std::size_t b, double seconds) {
+StateCovariance covariance_of(const WindowPath& path, std::size_t a, std::size_t k, std::size_t b,
+                              double seconds) {
   const WindowPath::Cell& cell = path.cells[k];
   StateCovariance c;
   c.var_x = cell.var_x, c.cov_xy = cell.cov_xy, c.var_y = cell.var_y;
@@ -138,6 +140,8 @@ static StateCovariance covariance_of(const WindowPath& path, std::size_t a, std:
   c.cov_vx_vy = (from.cov_xy + to.cov_xy) / square;
   return c;
 }
+
+}  // namespace
 
 TrackPoint Viterbi::point_of(const WindowPath& path, std::size_t k, std::int64_t id) const {
   TrackPoint point;
