@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
+#include <string_view>
+
+#include "glint/engine/scenario/scene_entry.hpp"
 
 namespace glint {
 namespace {
 
 template <class C>
 constexpr RadarSceneEntry radar_entry(std::string_view summary) {
-  return {C::kName, summary, [] { return ConfigSection::of<C>("scenes." + std::string(C::kName)); },
-          [](const ConfigSection& section) { return make_scene(section.as<C>()); }};
+  return scene_entry<RadarSceneEntry, C>(summary);
 }
 
 constexpr std::array kRadarScenes{

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "glint/engine/scenario/radar_scenes.hpp"
+#include "glint/engine/scenario/scene_entry.hpp"
 
 namespace glint {
 namespace {
 
 template <class C>
 constexpr SceneEntry entry(std::string_view summary) {
-  return {C::kName, summary, [] { return ConfigSection::of<C>("scenes." + std::string(C::kName)); },
-          [](const ConfigSection& section) { return make_scene(section.as<C>()); }};
+  return scene_entry<SceneEntry, C>(summary);
 }
 
 constexpr std::array kScenes{
